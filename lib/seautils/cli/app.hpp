@@ -1,0 +1,50 @@
+#ifndef SEAUTILS_CLI_APP_HPP
+#define SEAUTILS_CLI_APP_HPP
+
+#include "seautils/cli/io.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+
+namespace seautils::cli {
+
+/// Which of the shared options a tool has, beside help, version, quiet, verbose, color, progress.
+struct Options {
+    bool formats = true;  ///< -F/--input-format, -f/--format
+    bool schema = false;  ///< -s/--schema (may repeat), -m/--message (may repeat)
+    bool config = false;  ///< -c/--config (may repeat, the first to say a thing wins), --print-config
+    bool stream = true;   ///< --strict, --max-record, --follow; FILE...
+    bool time = false;    ///< --time
+    bool seed = false;    ///< --seed
+};
+
+/// What all tools share: the common options, `tool: file:line: what` messages, the statuses, the
+/// default action of SIGPIPE, and the check of standard output when it is closed.
+class App {
+public:
+    /// @param summary   one sentence, first in --help
+    /// @param examples  lines of shell, last in --help, each with its line end
+    App(std::string name, std::string summary, std::string examples, Options shared = {});
+    ~App();
+
+    /// For the tool's own options. A repeatable option takes one value each time.
+    CLI::App& options();
+
+    /// The formats that -F and -f accept; the first is the default.
+    void input_formats(std::vector<std::string> names);
+    void output_formats(std::vector<std::string> names);
+
+    /// Parses, runs `body`, flushes and checks standard output, and returns the exit status:
+    /// exceptions become a message and their status; 1 where a record was refused.
+    int main(int argc, char** argv, const std::function<void(Io&)>& body);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace seautils::cli
+
+#endif  // SEAUTILS_CLI_APP_HPP

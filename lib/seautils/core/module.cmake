@@ -1,0 +1,1 @@
+seautils_module(NAME core SOURCES time.cpp text.cpp LINK fmt::fmt)

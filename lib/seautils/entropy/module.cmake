@@ -1,0 +1,1 @@
+seautils_module(NAME entropy SOURCES arithmetic.cpp DEPENDS core)
