@@ -1,1 +1,1 @@
-seautils_module(NAME entropy SOURCES arithmetic.cpp DEPENDS core)
+seautils_module(NAME entropy SOURCES model.cpp arithmetic.cpp DEPENDS core LINK fmt::fmt)
