@@ -1,0 +1,164 @@
+// dccl-decode - unpack the bytes of the Dynamic Compact Control Language into messages
+#include "dccl_options.hpp"
+
+#include "seautils/core/text.hpp"
+#include "seautils/dccl/resync.hpp"
+#include "seautils/schema/csv.hpp"
+#include "seautils/schema/json.hpp"
+#include "seautils/schema/message.hpp"
+#include "seautils/stream/hex.hpp"
+
+#include <algorithm>
+
+using namespace seautils;
+
+namespace {
+
+class Tool {
+public:
+    Tool(cli::Io& io, const tools::DcclOptions& options)
+        : io_(io), options_(options), types_(options.load(io)) {
+        const bool one_type = io.format == "csv" || io.format == "delimited";
+        if (one_type && !types_.single()) {
+            throw Error(ExitCode::usage,
+                        io.format + " holds messages of one type: choose it with -m");
+        }
+        if (io.format == "csv")
+            csv_.emplace(*types_.types()[0].layout, dccl::repeats(types_.types()[0]));
+        if (io.format != "ndjson" && io.format != "csv" && types_.types()[0].legacy != nullptr) {
+            throw Error(ExitCode::usage, "messages of DCCL 1 are written as ndjson or csv only");
+        }
+        if (csv_) csv_->header(io.out.buffer());
+    }
+
+    /// A line or a delimited record: one frame, of one message or of several back to back.
+    void record(std::string_view record) {
+        if (io_.input_format == "hex")
+            bytes_ = stream::from_hex(record);
+        else if (io_.input_format == "base64")
+            bytes_ = from_base64(record);
+        else
+            bytes_ = record;
+        types_.set_now(io_.now_us() / 1'000'000);
+        std::string_view rest = bytes_;
+        do {
+            try {
+                rest.remove_prefix(message(rest));
+            } catch (const DataError& e) {
+                if (rest.size() == bytes_.size()) throw;
+                if (options_.lenient) return;
+                throw DataError(std::to_string(rest.size()) + " bytes are left over: " + e.what());
+            }
+            if (options_.header_only) return;
+        } while (!rest.empty() && !padding(rest));
+    }
+
+    /// Unframed bytes: takes what messages it can, and returns how many bytes that was.
+    std::size_t block(std::string_view bytes, std::uint64_t offset, bool ended, bool resync) {
+        types_.set_now(io_.now_us() / 1'000'000);
+        std::size_t at = 0;
+        while (at < bytes.size()) {
+            try {
+                if (!lost_) {
+                    at += message(bytes.substr(at));
+                    continue;
+                }
+                const dccl::Found found = dccl::find_message(types_, bytes.substr(at), ended);
+                at += found.skipped;
+                lost_ = !found.synchronous;
+                if (lost_) return at;
+                io_.refuse_at(lost_at_, std::to_string(offset + at - lost_at_) +
+                                            " bytes skipped: no message begins there");
+            } catch (const dccl::Truncated& e) {
+                if (!ended) return at;
+                fail(offset + at, e, resync);
+            } catch (const DataError& e) {
+                fail(offset + at, e, resync);
+            }
+        }
+        if (ended && lost_) {
+            io_.refuse_at(lost_at_, std::to_string(offset + at - lost_at_) +
+                                        " bytes skipped: no message begins there");
+        }
+        return at;
+    }
+
+private:
+    void fail(std::uint64_t offset, const DataError& e, bool resync) {
+        if (!resync)
+            throw stream::at_byte(
+                offset, std::string(e.what()) + " (--resync looks on for the next message)");
+        io_.refuse_at(offset, e.what());
+        lost_ = true;
+        lost_at_ = offset;
+    }
+
+    std::size_t message(std::string_view bytes) {
+        const dccl::TypeSet::Decoded decoded = types_.decode(bytes, values_);
+        std::string& out = io_.out.buffer();
+        if (io_.format == "ndjson") {
+            schema::write_json(values_, out, types_.single() ? "" : decoded.type->name);
+        } else if (io_.format == "text") {
+            if (!types_.single()) out += "|" + decoded.type->name + "| ";
+            schema::write_text(values_, out);
+        } else if (csv_) {
+            csv_->row(values_, out);
+        } else {
+            binary_.clear();
+            schema::write_binary(values_, binary_);
+            stream::append_delimited(out, binary_);
+        }
+        if (io_.format == "ndjson" || io_.format == "text") out += '\n';
+        io_.out.commit();
+        return decoded.bytes;
+    }
+
+    /// Zeros that fill up a modem's frame, unless a message has the identifier 0.
+    bool padding(std::string_view rest) const {
+        const bool zeros = rest.find_first_not_of('\0') == rest.npos;
+        return zeros &&
+               std::none_of(types_.types().begin(), types_.types().end(), [](const auto& t) {
+                   return t.program != nullptr && t.program->has_id() && t.program->id() == 0;
+               });
+    }
+
+    cli::Io& io_;
+    const tools::DcclOptions& options_;
+    dccl::TypeSet types_;
+    std::optional<schema::CsvWriter> csv_;
+    schema::Values values_;
+    std::string bytes_, binary_;
+    bool lost_ = false;
+    std::uint64_t lost_at_ = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    tools::DcclOptions dccl;
+    bool resync = false;
+    cli::App app{"dccl-decode",
+                 "Unpack the bytes of the Dynamic Compact Control Language into messages.",
+                 "  dccl-decode -s status.proto status.hex\n",
+                 {.schema = true, .config = true, .time = true}};
+    app.input_formats({"hex", "base64", "delimited", "raw"});
+    app.output_formats({"ndjson", "text", "delimited", "csv"});
+    dccl.add_type_options(app.options());
+    dccl.add_frame_options(app.options());
+    app.options().add_flag("--full-time-resolution", dccl.full_time_resolution,
+                           "Keep the digits of times that only option resolution states");
+    app.options().add_flag("--resync", resync,
+                           "raw: after bytes of no message, look on for the next");
+    return app.main(argc, argv, [&](cli::Io& io) {
+        Tool tool(io, dccl);
+        if (io.input_format == "raw") {
+            io.for_each_block([&](std::string_view bytes, std::uint64_t offset, bool ended) {
+                return tool.block(bytes, offset, ended, resync);
+            });
+            return;
+        }
+        const auto framing =
+            io.input_format == "delimited" ? cli::Framing::delimited : cli::Framing::lines;
+        io.for_each(framing, [&](std::string_view record) { tool.record(record); });
+    });
+}
