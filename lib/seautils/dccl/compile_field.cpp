@@ -268,12 +268,12 @@ Compiler::Bits Compiler::text(Op& op, const FieldOptions& options, const CodecCh
         refuse(path,
                fmt::format("max_length {} is above 255, the most of codec version 2", longest));
     }
-    op.count_width = byte_count ? 8 : static_cast<std::uint8_t>(bits_for(longest + 1.0));
-    op.element_min_bits = op.count_width;
+    op.length_width = byte_count ? 8 : static_cast<std::uint8_t>(bits_for(longest + 1.0));
+    op.element_min_bits = op.length_width;
     op.empty_is_unset = !variable;
     op.presence_bit = variable && !op.required;
-    return op.presence_bit ? Bits{1, 1 + op.count_width + bits}
-                           : Bits{op.count_width, op.count_width + bits};
+    return op.presence_bit ? Bits{1, 1 + op.length_width + bits}
+                           : Bits{op.length_width, op.length_width + bits};
 }
 
 Compiler::Bits Compiler::time(Op& op, const FieldOptions& options, const std::string& path) {

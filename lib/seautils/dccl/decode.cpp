@@ -237,7 +237,7 @@ void Decoder::enumeration(const Op& op, Slot& slot) {
 
 void Decoder::text(const Op& op, std::uint32_t slot) {
     std::uint64_t length = op.max_length;
-    if (op.text_form == TextForm::counted) length = reader_->get(op.count_width);
+    if (op.text_form == TextForm::counted) length = reader_->get(op.length_width);
     if (length == 0 && op.empty_is_unset) return;
     if (length * 8 > reader_->left()) throw OutOfBits{length * 8, reader_->left()};
     char* to = values_.add_text(slot, static_cast<std::uint32_t>(length));

@@ -232,7 +232,8 @@ void Encoder::out_of_range(const Op& op, const Slot& slot) {
         throw FieldError{"", fmt::format("{} is outside {} to {}{}", shown(op, slot, values_),
                                          op.number.min, op.number.max, with_unit(op))};
     }
-    unset(op);
+    if (op.presence_bit) writer_.put(1, 1);  // something is there, but it has no code
+    writer_.put_zeros(op.element_min_bits);
 }
 
 void Encoder::number(const Op& op, std::optional<std::uint64_t> code, const Slot& slot) {
@@ -289,7 +290,7 @@ void Encoder::text(const Op& op, const Slot& slot) {
         bytes = bytes.substr(0, op.max_length);
     }
     if (op.presence_bit) writer_.put(1, 1);
-    if (op.text_form == TextForm::counted) writer_.put(bytes.size(), op.count_width);
+    if (op.text_form == TextForm::counted) writer_.put(bytes.size(), op.length_width);
     writer_.put_bytes(bytes);
     if (op.text_form == TextForm::fixed) writer_.put_zeros((op.max_length - bytes.size()) * 8);
 }

@@ -48,7 +48,8 @@ struct Op {
     bool drop_empty = false;      ///< version 2 message: nothing set inside means absent
     TextForm text_form = TextForm::counted;
     CclCodec ccl = CclCodec::latloncompressed;
-    std::uint8_t count_width = 0;  ///< repeated: bits of the count; text: bits of the length
+    std::uint8_t count_width = 0;   ///< repeated: bits of the count
+    std::uint8_t length_width = 0;  ///< text: bits of the length
     std::uint32_t slot = 0;        ///< the field's index in its message
     std::uint32_t end = 0;         ///< message: one past its last step
     std::uint32_t min_repeat = 0, max_repeat = 1;
