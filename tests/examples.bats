@@ -1,0 +1,94 @@
+#!/usr/bin/env bats
+# The examples do what their README files say.
+
+setup() {
+    load test_helper
+    bats_require_minimum_version 1.5.0
+    examples=$BATS_TEST_DIRNAME/../examples
+    mission=$examples/mission
+    shared=${SEAUTILS_SHARED:-$BATS_TEST_DIRNAME/../../shared}
+    cd "$BATS_TEST_TMPDIR"
+}
+
+convert() { # ROW...: what to-ndjson.awk makes of rows of time, latitude, longitude, temperature
+    printf '%s\n' time_s,lat_deg,lon_deg,depth_m,temperature_C "$@" > in.csv
+    awk -v interval_s=10 -v report=report.txt -f "$mission/to-ndjson.awk" in.csv
+}
+
+@test "examples: the shipped mission comes back within half a resolution" {
+    run_quiet "$mission/run" -k kept
+    assert_line --regexp '^[0-9]+ values in 760 messages compared: all the same within half a resolution$'
+    assert_line --partial '1440 rows'
+    # one sample a row of the CSV
+    assert_line '42 Ctd with 1440 samples.'
+    # a Status has 40 bits of header and 168 of body whatever is set: 718 times 26 bytes
+    assert_line --regexp '^seautils.Status +718 +[0-9]+ +[0-9]+ +18668 +26.0 '
+    assert [ "$(wc -l < kept/sent.hex)" -eq 760 ]
+}
+
+@test "examples: the comparison notices a changed, a lost and an invented value" {
+    echo '{"@type":"seautils.Status","time_s":1.0,"src":1,"depth_m":10.0}' > sent
+    for got in '{"@type":"seautils.Status","time_s":1.0,"src":1,"depth_m":10.06}' \
+        '{"@type":"seautils.Status","time_s":1.0,"src":2,"depth_m":10.0}' \
+        '{"@type":"seautils.Status","time_s":1.0,"src":1}' \
+        '{"@type":"seautils.Status","time_s":1.0,"src":1,"depth_m":10.0,"leg":0}'; do
+        echo "$got" > got
+        run -1 awk -v got=got -f "$mission/compare.awk" sent
+        assert_line --partial ' compared: 1 differ'
+    done
+    : > got
+    run -1 awk -v got=got -f "$mission/compare.awk" sent
+    assert_line --partial ' compared: 1 differ'
+    echo '{"src":1, "depth_m":10.05, "time_s":1, "@type":"seautils.Status"}' > got
+    run -0 awk -v got=got -f "$mission/compare.awk" sent
+}
+
+@test "examples: the local plane has the ellipsoid's lengths" {
+    # A degree at 45 north is 111131.8 m along the meridian and 78846.8 m along the parallel (WGS84).
+    run -0 convert 0,45,10,0,8 10,45.01,10.01,0,8
+    assert_line --index 1 --partial '"x_m":788.47,"y_m":1111.32,'
+    # over the 180th meridian it is not far
+    run -0 convert 0,0,179.999,0,8 10,0,-179.999,0,8
+    assert_line --index 1 --partial '"x_m":222.64,"y_m":0.00,'
+}
+
+@test "examples: what is unknown, no number or out of bounds stays unset" {
+    run -0 convert 0,,,-3.5,8 10,,,1e400x,nan 20,45,10,,
+    assert_line --index 0 '{"@type":"seautils.Status","time_s":0,"src":1,"dest":0}'
+    assert_line --index 1 '{"@type":"seautils.Status","time_s":10,"src":1,"dest":0}'
+    assert_line --index 2 '{"@type":"seautils.Status","time_s":20,"src":1,"dest":0,"x_m":0.00,"y_m":0.00}'
+    assert_equal "${#lines[@]}" 3
+    run -0 cat report.txt
+    assert_line --partial 'depth_m outside -3 to 6550'
+    assert_line --partial 'not a number'
+}
+
+@test "examples: a mission of the shared data comes back within half a resolution" {
+    [[ -d $shared/data/tracks ]] || skip "no recordings in $shared/data/tracks"
+    for track in "$shared"/data/tracks/*.csv.gz; do
+        run_quiet "$mission/run" "$track"
+        assert_line --regexp '^[0-9]+ values in [0-9]+ messages compared: all the same within half a resolution$'
+    done
+}
+
+@test "examples: a wrong command line is 64, a missing recording 66" {
+    run -64 "$mission/run" --nonsense
+    run -64 "$mission/run" -i soon
+    run -66 "$mission/run" nowhere.csv
+    assert_output 'run: nowhere.csv: cannot be read'
+}
+
+@test "examples: the recording is small, and says where it comes from" {
+    assert [ "$(wc -c < "$mission/seaexplorer.csv")" -le 200000 ]
+    assert grep -q 'Licence' "$mission/README.md"
+}
+
+@test "examples: the log of DCCL 1 reads as its README says" {
+    run_quiet dccl-decode -s "$examples/legacy/dive.xml" -m DIVE --time 2011-07-25T12:00:00Z \
+        -F hex "$examples/legacy/log.hex"
+    assert_equal "${#lines[@]}" 3
+    assert_line --index 0 --partial '"depth":12.5,"temperature":[21.4,21.38,21.35,21.1],"phase":"DIVE","battery":87,"healthy":true'
+    assert_line --index 1 --partial '"depth":96.1,"temperature":[14.02,14.01,13.98,13.97],"phase":"DIVE","battery":86,"healthy":true'
+    assert_line --index 2 --partial '"temperature":[20.95,21,21.2,21.4],"phase":"SURFACE","battery":85,"healthy":false'
+    refute_line --index 2 --partial '"depth"'
+}
