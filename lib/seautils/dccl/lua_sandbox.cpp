@@ -49,7 +49,7 @@ void on_count(lua_State* lua, lua_Debug*) {
 }
 
 int read_only(lua_State* lua) {
-    return luaL_error(lua, "globals, messages and libraries cannot be changed");
+    return luaL_error(lua, "globals and libraries cannot be changed");
 }
 
 /// The message proxies pass for the tables that they stand in for.
