@@ -46,8 +46,9 @@ function value(path, leaf,    key, i) {
 }
 
 function differ(path, a, b) {
-    if (++differences <= 10)
-        print "compare.awk: " FILENAME ":" NR ": " path " was " a ", came back " b > "/dev/stderr"
+    if (++differences > 10) return
+    printf "compare.awk: %s:%d: %s was %s, came back %s\n", \
+        FILENAME, NR, path, a, b > "/dev/stderr"
 }
 
 function compare(path, a, b,    name, difference) {
@@ -69,8 +70,8 @@ function compare(path, a, b,    name, difference) {
 BEGIN {
     # resolutions of schemas/seautils
     names = split("time_s 0.1 x_m 0.1 y_m 0.1 depth_m 0.1 altitude_m 0.1 speed_mps 0.01 " \
-        "heading_deg 0.2 course_deg 0.2 pitch_deg 0.4 roll_deg 0.4 temperature_c 0.004 salinity 0.004", \
-        table, " ")
+        "heading_deg 0.2 course_deg 0.2 pitch_deg 0.4 roll_deg 0.4 " \
+        "temperature_c 0.004 salinity 0.004", table, " ")
     for (i = 1; i < names; i += 2) step[table[i]] = table[i + 1]
 }
 
@@ -92,7 +93,8 @@ END {
     print "field                values  half a step  largest difference"
     for (i = 1; i < names; i += 2) {
         name = table[i]
-        if (name in values) printf "%-16s %10d %12g %19.6f\n", name, values[name], step[name] / 2, worst[name]
+        if (!(name in values)) continue
+        printf "%-16s %10d %12g %19.6f\n", name, values[name], step[name] / 2, worst[name]
     }
     printf "%d values in %d messages compared: ", compared, NR
     if (differences || NR == 0) {

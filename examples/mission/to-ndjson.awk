@@ -98,21 +98,24 @@ function status(time_s,    speed_mps, heading_deg) {
     statuses++
 }
 
-function sample(time_s,    water, depth) {
+function new_profile(time_s) {
+    first_s = time_s
+    profile = head("Ctd", time_s) \
+        member("x_m", rounded(x_m, "%.2f"), -104800, 104800) \
+        member("y_m", rounded(y_m, "%.2f"), -104800, 104800) ",\"sample\":["
+}
+
+function sample(time_s,    water, depth, late) {
     water = member("temperature_c", cell("temperature_c", "temperature_C"), -5, 60) \
         member("salinity", cell("salinity", "salinity_psu"), 0, 65)
     if (water == "") return
     depth = member("depth_m", cell("depth_m"), -3, 6550)
     if (depth == "") return
-    if (samples == 35 || samples > 0 && (time_s < first_s || time_s - first_s > 4095)) send_samples()
-    if (samples == 0) {
-        first_s = time_s
-        profile = head("Ctd", time_s) \
-            member("x_m", rounded(x_m, "%.2f"), -104800, 104800) \
-            member("y_m", rounded(y_m, "%.2f"), -104800, 104800) ",\"sample\":["
-    }
-    profile = profile (samples ? "," : "") sprintf("{\"offset_s\":%.0f", time_s - first_s) depth water "}"
-    samples++
+    late = time_s < first_s || time_s - first_s > 4095
+    if (samples == 35 || samples > 0 && late) send_samples()
+    if (samples == 0) new_profile(time_s)
+    profile = profile (samples++ ? "," : "") \
+        sprintf("{\"offset_s\":%.0f", time_s - first_s) depth water "}"
     all_samples++
 }
 
@@ -162,11 +165,11 @@ END {
     if (failed) exit 65
     send_samples()
     if (report == "") exit
-    printf "%d Status, one every %d s or the recording's own interval; speed computed from positions in %d.\n", \
+    printf "%d Status, at most one in %d s; speed computed from positions in %d.\n", \
         statuses, interval_s, computed > report
     printf "%d Ctd with %d samples.\n", profiles, all_samples > report
     if (datum_latitude_deg != "")
-        print "datum " datum_latitude_deg " " datum_longitude_deg " (latitude_deg longitude_deg)" > report
-    for (why in dropped) print "left unset: " why ", " dropped[why] " times" > report
+        print "Datum: " datum_latitude_deg ", " datum_longitude_deg " (latitude, longitude)" > report
+    for (why in dropped) print "Left unset: " why ", " dropped[why] " times" > report
     printf "start_time_s %.0f\n", start_s > report
 }
