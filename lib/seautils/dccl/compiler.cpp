@@ -260,6 +260,8 @@ void Compiler::add(const schema::Field& f, std::uint32_t index, const FieldOptio
     }
     ops[at] = op;
     FieldReport& r = program_->report_[row];
+    r.kind = op.kind;
+    r.number = op.number;
     r.min_bits = op.min_bits;
     r.max_bits = op.max_bits;
     r.min_repeat = op.repeated ? op.min_repeat : 0;

@@ -338,11 +338,28 @@ void Decoder::arithmetic(const Op& op, const Frame& frame) {
     values_[list].present = kept > 0;
 }
 
+namespace {
+
+/// Sets the message's number of that name, if it has one.
+void set_field(const schema::Layout& layout, schema::Values& values, std::uint32_t block, const char* name, double x) {
+    const std::int32_t index = layout.find(name);
+    if (index < 0 || layout.fields[static_cast<std::size_t>(index)].repeated) return;
+    Slot& slot = values[block + static_cast<std::uint32_t>(index)];
+    set_number(layout.fields[static_cast<std::size_t>(index)].kind, x, slot);
+    slot.present = true;
+}
+
+}  // namespace
+
 void Decoder::ccl(const Op& op, std::uint32_t slot) {
     if (op.ccl == CclCodec::gfi_pitch_oil) {
         const auto code = static_cast<std::uint32_t>(reader_->get(16));
-        set_gfi_pitch_oil(ccl_decode_gfi_pitch_oil(code), *op.field->message, values_,
-                          values_.add_block(slot, *op.field->message));
+        const GfiPitchOil value = ccl_decode_gfi_pitch_oil(code);
+        const schema::Layout& layout = *op.field->message;
+        const std::uint32_t block = values_.add_block(slot, layout);
+        set_field(layout, values_, block, "gfi", static_cast<double>(value.gfi_percent));
+        set_field(layout, values_, block, "pitch", static_cast<double>(value.pitch_deg));
+        set_field(layout, values_, block, "oil", static_cast<double>(value.oil_percent));
         return;
     }
     Slot& s = values_[slot];

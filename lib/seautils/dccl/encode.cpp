@@ -366,11 +366,28 @@ void Encoder::arithmetic(const Op& op, const Frame& frame) {
         [&](bool bit) { writer_.put(bit ? 1 : 0, 1); }, codec_.options.lenient);
 }
 
+namespace {
+
+/// The value of the message's field of that name, or 0.
+float number_of(const schema::Layout& layout, const schema::Values& values, std::uint32_t block, const char* name) {
+    const std::int32_t index = layout.find(name);
+    if (index < 0) return 0;
+    const schema::Field& f = layout.fields[static_cast<std::size_t>(index)];
+    const Slot& s = values[block + static_cast<std::uint32_t>(index)];
+    if (!s.present || f.repeated) return 0;
+    const bool floating = f.kind == Kind::float32 || f.kind == Kind::float64;
+    return static_cast<float>(floating ? s.d : static_cast<double>(s.i));
+}
+
+}  // namespace
+
 void Encoder::ccl(const Op& op, const Slot& slot) {
     const bool by_message = op.ccl == CclCodec::gfi_pitch_oil;
     if (by_message) {
         const auto block = static_cast<std::uint32_t>(slot.u);
-        const GfiPitchOil value = gfi_pitch_oil_of(*op.field->message, values_, block);
+        const schema::Layout& layout = *op.field->message;
+        const GfiPitchOil value{number_of(layout, values_, block, "gfi"), number_of(layout, values_, block, "pitch"),
+                                number_of(layout, values_, block, "oil")};
         return writer_.put(ccl_encode_gfi_pitch_oil(value), 16);
     }
     const double x = as_double(op, slot);
@@ -381,6 +398,13 @@ void Encoder::ccl(const Op& op, const Slot& slot) {
     }
     bool metres_per_second = false;
     if (op.ccl == CclCodec::speed) metres_per_second = values_[op.extra].i == 1;
+    const auto outside = codec_.options.lenient
+                             ? std::nullopt
+                             : ccl_out_of_range(op.ccl, x, op.max_length, metres_per_second);
+    if (outside) {
+        throw FieldError{"", fmt::format("{} is outside {} to {}{}", shown(op, slot, values_), outside->min,
+                                         outside->max, with_unit(op))};
+    }
     const std::uint32_t code = ccl_encode(op.ccl, x, op.max_length, metres_per_second);
     if (op.ccl == CclCodec::fix_age) {
         return writer_.put(code + (op.number.null_code ? 1U : 0U), op.number.width);

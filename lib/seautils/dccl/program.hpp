@@ -5,7 +5,7 @@
 #include "seautils/dccl/number.hpp"
 #include "seautils/dccl/options.hpp"
 #include "seautils/entropy/arithmetic.hpp"
-#include "seautils/schema/layout.hpp"
+#include "seautils/schema/values.hpp"
 
 #include <cstdint>
 #include <map>
@@ -121,6 +121,8 @@ struct FieldReport {
     double min = 0, max = 0, resolution = 0;
     std::string unit;
     std::uint32_t max_length = 0;
+    OpKind kind = OpKind::lost;
+    NumberCode number;              ///< of numbers, enumerations and times
     bool has_presence_cost = false;  ///< a code or a bit is spent on "not set"
     bool has_conditions = false;
 };

@@ -26,16 +26,14 @@ public:
     const std::vector<std::string>& columns() const { return columns_; }
 
     void header(std::string& out) const;
-    /// @throws DataError  more elements than columns
+    /// Elements beyond the columns have no place and are left out: a decoder keeps to max_repeat.
     void row(const Values& values, std::string& out) const;
 
 private:
-    struct Column {
-        std::vector<std::uint32_t> steps;  ///< field index, element index (repeated), field index …
-    };
     const Layout* layout_;
     std::vector<std::string> columns_;
-    std::vector<Column> paths_;
+    /// For each column: field index, element index where it is repeated, field index, …
+    std::vector<std::vector<std::uint32_t>> paths_;
     std::map<std::string, std::uint32_t> max_repeat_;
 };
 

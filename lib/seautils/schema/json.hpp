@@ -17,8 +17,8 @@ namespace seautils::schema {
 /// Refuses, each with the field's path and the value quoted: an unknown field (proposes the nearest
 /// name), a duplicate field, two members of a oneof, a fraction or out-of-type number for an
 /// integer, an undeclared enumerator, a null element (unless Field::nullable_elements), invalid
-/// UTF-8, more than 32 levels, anything after the object. `google.protobuf` well-known types are
-/// read as plain messages but Timestamp and Duration, which have their text form.
+/// UTF-8, more than 32 levels, anything after the object. Not covered: map fields, and the special
+/// forms of google.protobuf's well-known types, which are read and written as plain messages.
 class JsonReader {
 public:
     JsonReader();

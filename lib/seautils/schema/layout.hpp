@@ -59,6 +59,7 @@ struct Layout;
 struct Field {
     std::string name;       ///< as declared
     std::string json_name;  ///< lowerCamelCase, also accepted by the JSON reader
+    std::string json_key;   ///< `"name":`, for the JSON writer; made by LayoutSet
     std::int32_t number = 0;
     Kind kind = Kind::int32;
     WireForm wire_form = WireForm::varint;

@@ -1,0 +1,35 @@
+#ifndef SEAUTILS_CORE_TEXT_HPP
+#define SEAUTILS_CORE_TEXT_HPP
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seautils {
+
+/// A value as a message quotes it: in single quotes, control characters and bytes that are not
+/// UTF-8 as \xNN, cut after 60 bytes with "…".
+std::string quote(std::string_view value);
+
+/// Bytes of the UTF-8 character that `text` begins with, 1 to 4; 0 where it begins with none
+/// (overlong forms, surrogates and numbers above U+10FFFF are none).
+std::size_t utf8_length(std::string_view text);
+
+/// Whether all of the text is UTF-8.
+bool is_valid_utf8(std::string_view text);
+
+/// The candidate that `name` may have been meant for: fewest edits, at most a third of its letters,
+/// the first of equals; empty where none is near.
+std::string nearest(std::string_view name, const std::vector<std::string>& candidates);
+
+/// Appends base64 (RFC 4648 §4, with padding).
+void append_base64(std::string& out, std::string_view bytes);
+
+/// The bytes of base64 text, in the standard or the URL alphabet, with or without padding.
+/// @throws DataError  names the first bad character and its column
+std::string from_base64(std::string_view text);
+
+}  // namespace seautils
+
+#endif  // SEAUTILS_CORE_TEXT_HPP

@@ -1,0 +1,21 @@
+#ifndef SEAUTILS_SCHEMA_NUMBER_TEXT_HPP
+#define SEAUTILS_SCHEMA_NUMBER_TEXT_HPP
+
+#include <cstdint>
+#include <string>
+
+namespace seautils::schema {
+
+void append_integer(std::string& out, std::int64_t x);
+void append_integer(std::string& out, std::uint64_t x);
+
+/// Appends the shortest decimal that reads back as the same double: plain from 1e-4 to 1e16, with
+/// an exponent beyond; `nan`, `inf`, `-inf`.
+void append_double(std::string& out, double x);
+
+/// The same for a binary32 number, which reads back the same when it is rounded to binary32.
+void append_float(std::string& out, float x);
+
+}  // namespace seautils::schema
+
+#endif  // SEAUTILS_SCHEMA_NUMBER_TEXT_HPP
