@@ -313,19 +313,18 @@ TEST_F(Conditions, ReasonsAreOneLineWithoutAPlace) {
     EXPECT_EQ(reason("'a\nb' "), "unfinished string near ''a'");
 }
 
-TEST_F(Conditions, LongAndUnprintableScriptsAreQuotedInPart) {
-    const std::string script = "\x01\xff " + std::string(200, 'x');
-    try {
-        engine_.check(script);
-        FAIL();
-    } catch (const ConfigError& e) {
-        const std::string what = e.what();
-        EXPECT_TRUE(what.starts_with("condition '?? " + std::string(77, 'x') + "...': ")) << what;
-        EXPECT_EQ(what.find_first_not_of(
-                      " !\"#$%&'()*+,-./0123456789:;<=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`"
-                      "abcdefghijklmnopqrstuvwxyz{|}~"),
-                  std::string::npos);
-    }
+TEST_F(Conditions, UnprintableScriptsAreQuotedOnOneLine) {
+    const auto refusal = [this](const std::string& script) -> std::string {
+        try {
+            engine_.check(script);
+        } catch (const ConfigError& e) {
+            return e.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(refusal("\x01 x"), "condition '\\x01 x': unexpected symbol near '<\\1>'");
+    EXPECT_EQ(refusal("x =\n'\xff\t"), "condition 'x =\\x0a'\\xff\\x09': <eof> expected near '='");
+    EXPECT_LT(refusal(std::string(4000, 'x') + " =").size(), 300U);
 }
 
 TEST_F(Conditions, CheckLooksAtTheSyntax) {
@@ -372,9 +371,20 @@ TEST_F(HostileConditions, Memory) {
     EXPECT_EQ(reason("local t = {} for i = 1, 1e9 do t[i] = i end return 1"), too_big);
     EXPECT_EQ(reason("local s = 'x' for i = 1, 40 do s = ('%s%s'):format(s, s) end return s"),
               too_big);
-    values_.set_text(slot("name"), std::string(20000, 'x'));
+    values_.set_text(slot("name"), std::string(5000, 'x'));
     EXPECT_EQ(reason("this.name"), too_big);
     EXPECT_EQ(reason("('x'):rep(1e9)"), "attempt to call a nil value (method 'rep')");
+}
+
+TEST_F(HostileConditions, WhatOneRunLeavesBehindIsNotTheNextOnes) {
+    // A list of half a million bytes, which lies in the stack's unused places afterwards.
+    const std::string list = "local t = {} for i = 1, 5000 do t = {t, t, t} end return 1";
+    const std::string endless = "local t = {} while true do t = {t, t, t} end return 1";
+    for (int k = 0; k < 50; ++k) {
+        EXPECT_EQ(number(list), 1.0);
+        EXPECT_EQ(reason(endless), too_big);
+        EXPECT_TRUE(test("('x'):upper() .. 1 == 'X1'"));
+    }
 }
 
 TEST_F(HostileConditions, GarbageIsNotHeldAgainstThem) {
@@ -471,13 +481,14 @@ TEST_F(HostileConditions, FormatsAreBounded) {
 }
 
 TEST_F(HostileConditions, ManyArguments) {
-    values_.set_text(slot("name"), std::string(15000, 'x'));
-    EXPECT_EQ(reason("select('#', this.name:byte(1, -1))"),
-              "stack overflow (string slice too long)");
+    values_.set_text(slot("name"), std::string(4096, 'x'));
+    EXPECT_EQ(number("select('#', this.name:byte(1, -1))"), 4096.0);
+    EXPECT_EQ(reason("local function f(...) return f(1, ...) end return f(this.name:byte(1, -1))"),
+              too_big);
 }
 
 TEST_F(HostileConditions, LongComparisonsTakeBoundedTime) {
-    values_.set_text(slot("name"), std::string(15000, '7'));
+    values_.set_text(slot("name"), std::string(4000, '7'));
     const auto start = std::chrono::steady_clock::now();
     EXPECT_EQ(reason("local a, b = this.name .. 'a', this.name .. 'b' "
                      "while true do local x = a < b end return 1"),
@@ -485,7 +496,7 @@ TEST_F(HostileConditions, LongComparisonsTakeBoundedTime) {
     EXPECT_EQ(reason("local a = ' ' .. this.name while true do local x = a + 0 end return 1"),
               too_long);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(took.count(), 20);  // seconds; with slow instrumentation
+    EXPECT_LT(took.count(), 10);  // seconds; with slow instrumentation
 }
 
 TEST_F(HostileConditions, AMessageHasABudgetOfItsOwn) {
@@ -494,7 +505,7 @@ TEST_F(HostileConditions, AMessageHasABudgetOfItsOwn) {
     engine_.start_message();
     int runs = 0;
     EXPECT_THROW(for (; runs < 2000; ++runs) test(script), DataError);
-    EXPECT_GT(runs, 500);
+    EXPECT_GT(runs, 100);
     engine_.start_message();
     EXPECT_TRUE(test(script));
 }

@@ -1,6 +1,7 @@
 #include "seautils/dccl/conditions.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 #include "seautils/dccl/lua_proxy.hpp"
 #include "seautils/dccl/lua_sandbox.hpp"
 
@@ -17,17 +18,19 @@ namespace {
 /// Compiled scripts are forgotten when Lua holds more than this.
 constexpr std::size_t max_kept_bytes = ConditionEngine::max_memory_bytes / 2;
 
-/// Printable, on one line, and not too long.
-std::string quotable(std::string_view text, std::size_t max_bytes) {
-    std::string out(text.substr(0, max_bytes));
-    for (char& c : out) {
+constexpr std::size_t max_reason_bytes = 200;
+
+/// Lua's reasons quote parts of the script as they are.
+std::string printable(std::string reason) {
+    if (reason.size() > max_reason_bytes) reason.resize(max_reason_bytes);
+    for (char& c : reason) {
         if (c < ' ' || c > '~') c = c == '\n' || c == '\t' ? ' ' : '?';
     }
-    return text.size() > max_bytes ? out + "..." : out;
+    return reason;
 }
 
 std::string message(const std::string& script, const std::string& reason) {
-    return fmt::format("condition '{}': {}", quotable(script, 80), quotable(reason, 200));
+    return fmt::format("condition {}: {}", quote(script), printable(reason));
 }
 
 struct Result {
@@ -39,6 +42,7 @@ struct Result {
 struct Call {
     int script;
     std::uint32_t index;
+    BlockRef root, self;
     Result result;
 };
 
@@ -72,6 +76,8 @@ struct ConditionEngine::Impl {
 
     int compile(const std::string& script);
     int compiled(const std::string& script);
+    void forget_scripts();
+    void attempt(const std::string& script, const schema::Values& values, Call& call);
     Result run(const std::string& script, const schema::Values& values, BlockRef root_block,
                BlockRef self_block, std::uint32_t index);
 };
@@ -80,34 +86,47 @@ int ConditionEngine::Impl::compile(const std::string& script) {
     if (script.size() > max_script_bytes) {
         throw LuaFailure{fmt::format("{} bytes are more than {}", script.size(), max_script_bytes)};
     }
+    if (sandbox.context().used_bytes > max_kept_bytes) forget_scripts();
     if (script.find("return") != std::string::npos) return sandbox.compile(script);
     return sandbox.compile("return " + script);
+}
+
+void ConditionEngine::Impl::forget_scripts() {
+    for (const auto& kept : scripts) sandbox.forget(kept.second);
+    scripts.clear();
+    sandbox.collect_garbage();
 }
 
 int ConditionEngine::Impl::compiled(const std::string& script) {
     const auto found = scripts.find(script);
     if (found != scripts.end()) return found->second;
-    if (sandbox.context().used_bytes > max_kept_bytes) {
-        for (const auto& kept : scripts) sandbox.forget(kept.second);
-        scripts.clear();
-        sandbox.collect_garbage();
-    }
     return scripts.emplace(script, compile(script)).first->second;
+}
+
+void ConditionEngine::Impl::attempt(const std::string& script, const schema::Values& values,
+                                    Call& call) {
+    call.script = compiled(script);
+    sandbox.start_run(values);
+    *root = {call.root.layout, nullptr, call.root.block, 0, sandbox.context().run};
+    *self = {call.self.layout, nullptr, call.self.block, 0, sandbox.context().run};
+    sandbox.protect(call_script, &call);
 }
 
 Result ConditionEngine::Impl::run(const std::string& script, const schema::Values& values,
                                   BlockRef root_block, BlockRef self_block, std::uint32_t index) {
+    Call call{LUA_NOREF, index, root_block, self_block, {}};
     try {
-        Call call{compiled(script), index, {}};
-        sandbox.start_run(values);
-        const std::uint64_t number = sandbox.context().run;
-        *root = {root_block.layout, nullptr, root_block.block, 0, number};
-        *self = {self_block.layout, nullptr, self_block.block, 0, number};
-        sandbox.protect(call_script, &call);
-        return call.result;
+        try {
+            attempt(script, values, call);
+        } catch (const LuaFailure& failure) {
+            if (!failure.out_of_memory) throw;
+            forget_scripts();  // whether it fails must not depend on what ran before
+            attempt(script, values, call);
+        }
     } catch (const LuaFailure& failure) {
         throw DataError(message(script, failure.reason));
     }
+    return call.result;
 }
 
 ConditionEngine::ConditionEngine() : impl_(std::make_unique<Impl>()) {

@@ -32,8 +32,8 @@ struct BlockRef {
 ///
 /// It need not be trusted. It cannot change anything that another run sees; has no input, output,
 /// clock, chance or addresses, no way to load code or to catch an error; and is stopped at
-/// max_instructions, or when Lua holds max_memory_bytes or asks for a single block (such as a
-/// string) above max_block_bytes.
+/// max_instructions, when Lua holds max_memory_bytes, or at a string above max_string_bytes (a
+/// field's too). Whether it is stopped does not depend on what ran before.
 ///
 /// One Lua state. Not thread-safe; movable.
 class ConditionEngine {
@@ -41,9 +41,9 @@ public:
     static constexpr std::size_t max_script_bytes = 4096;
     static constexpr unsigned max_instructions = 100'000;
     static constexpr std::size_t max_memory_bytes = std::size_t{1} << 20;
-    static constexpr std::size_t max_block_bytes = std::size_t{1} << 14;
+    static constexpr std::size_t max_string_bytes = 4096;
     /// What the scripts of one message may take together; each run counts as 200 at least.
-    static constexpr unsigned max_message_instructions = 20'000'000;
+    static constexpr unsigned max_message_instructions = 5'000'000;
 
     ConditionEngine();
     ~ConditionEngine();

@@ -14,27 +14,30 @@ namespace {
 
 constexpr unsigned hook_step = 1000;  // instructions
 constexpr unsigned run_cost = 200;    // what a run counts for at least, in instructions
+constexpr std::size_t largest_string = ConditionEngine::max_string_bytes + 64;  // with its head
 constexpr const char* chunk_name = "=condition";
 
 const char keys[2] = {};  // the addresses are keys of Lua's registry
 const char* const globals_key = &keys[0];
 const char* const environment_key = &keys[1];
 
+/// Lua's allocator. What Lua does with a string in one instruction takes time by its length, so
+/// that strings have a limit of their own.
 void* allocate(void* context, void* old, std::size_t old_size, std::size_t size) {
     auto& c = *static_cast<LuaContext*>(context);
-    if (old == nullptr) old_size = 0;  // Lua passes the type of the new object
+    if (old == nullptr) {  // old_size is the type of the new object
+        if (old_size == LUA_TSTRING && size > largest_string) return nullptr;
+        old_size = 0;
+    }
     if (size == 0) {
         std::free(old);
         c.used_bytes -= old_size;
         return nullptr;
     }
-    const bool grows = size > old_size;
-    if (grows && (size > c.max_block_bytes ||
-                  c.used_bytes - old_size + size > ConditionEngine::max_memory_bytes)) {
-        return nullptr;
-    }
+    const std::size_t used = c.used_bytes - old_size + size;
+    if (size > old_size && used > ConditionEngine::max_memory_bytes) return nullptr;
     void* block = std::realloc(old, size);
-    if (block != nullptr) c.used_bytes += size - old_size;
+    if (block != nullptr) c.used_bytes = used;
     return block;
 }
 
@@ -48,9 +51,7 @@ void on_count(lua_State* lua, lua_Debug*) {
     }
 }
 
-int read_only(lua_State* lua) {
-    return luaL_error(lua, "globals and libraries cannot be changed");
-}
+int read_only(lua_State* lua) { return luaL_error(lua, "globals and libraries cannot be changed"); }
 
 /// The message proxies pass for the tables that they stand in for.
 const char* type_name(lua_State* lua, int index) {
@@ -231,13 +232,13 @@ void LuaSandbox::protect(void (*body)(lua_State*, void*), void* argument) {
     lua_pushlightuserdata(lua_, &both);
     const int status = lua_pcall(lua_, 1, 0, 0);
     if (status == LUA_OK) return;
-    LuaFailure failure{reason(lua_, status)};
+    LuaFailure failure{reason(lua_, status), status == LUA_ERRMEM};
     lua_settop(lua_, 0);
+    collect_garbage();
     throw failure;
 }
 
 int LuaSandbox::compile(std::string_view text) {
-    context_.max_block_bytes = SIZE_MAX;
     lua_sethook(lua_, nullptr, 0, 0);
     Source source{text, LUA_NOREF};
     protect(compile_source, &source);
@@ -252,10 +253,11 @@ void LuaSandbox::forget(int reference) {
         &reference);
 }
 
+// Not only for the memory: Lua takes what a run left in unused places of its stack for alive until
+// it is collected with nothing on the stack.
 void LuaSandbox::collect_garbage() { lua_gc(lua_, LUA_GCCOLLECT, 0); }
 
 void LuaSandbox::start_run(const schema::Values& values) {
-    context_.max_block_bytes = ConditionEngine::max_block_bytes;
     context_.values = &values;
     context_.instructions = 0;
     ++context_.run;

@@ -15,7 +15,6 @@ namespace seautils::dccl {
 /// What the functions that Lua calls know; each Lua state points to its own (lua_context).
 struct LuaContext {
     std::size_t used_bytes = 0;
-    std::size_t max_block_bytes = SIZE_MAX;
     unsigned instructions = 0;  ///< of this run, in steps of the hook
     std::uint64_t message_instructions = 0;
     bool counts_messages = false;
@@ -27,6 +26,7 @@ LuaContext& lua_context(lua_State* lua);
 /// Why Lua gave up: one line, without a place.
 struct LuaFailure {
     std::string reason;
+    bool out_of_memory = false;
 };
 
 /// A Lua state with nothing in it that a hostile script could use.
