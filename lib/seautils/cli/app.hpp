@@ -6,16 +6,17 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace seautils::cli {
 
-/// Which of the shared options a tool has, beside help, version, quiet, verbose, color, progress.
+/// Which of the shared options a tool has, beside help, version, quiet, verbose and color.
 struct Options {
-    bool formats = true;  ///< -F/--input-format, -f/--format
-    bool schema = false;  ///< -s/--schema (may repeat), -m/--message (may repeat)
+    bool schema = false;  ///< -s/--schema (may repeat, required), -m/--message (may repeat)
     bool config = false;  ///< -c/--config (may repeat, the first to say a thing wins), --print-config
-    bool stream = true;   ///< --strict, --max-record, --follow; FILE...
+    bool stream = true;   ///< --strict, --max-record, --follow, --progress; FILE...
     bool time = false;    ///< --time
     bool seed = false;    ///< --seed
 };
@@ -26,13 +27,17 @@ class App {
 public:
     /// @param summary   one sentence, first in --help
     /// @param examples  lines of shell, last in --help, each with its line end
-    App(std::string name, std::string summary, std::string examples, Options shared = {});
+    App(const std::string& name, const std::string& summary, const std::string& examples,
+        Options shared = {});
     ~App();
+    App(const App&) = delete;
+    App& operator=(const App&) = delete;
 
-    /// For the tool's own options. A repeatable option takes one value each time.
+    /// For the tool's own options. A repeatable option must say allow_extra_args(false), else it
+    /// takes the FILE behind it for its second value.
     CLI::App& options();
 
-    /// The formats that -F and -f accept; the first is the default.
+    /// The formats that -F and -f accept; the first is the default. Not called: no such option.
     void input_formats(std::vector<std::string> names);
     void output_formats(std::vector<std::string> names);
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,64 +13,75 @@
 
 namespace seautils::cli {
 
+class Messages;
+
 /// How records are told apart in a stream of bytes.
 enum class Framing {
     lines,      ///< text: a record a line, `\n` or `\r\n`, the last one without if need be
     delimited,  ///< binary: varint length, then the record
-    raw,        ///< binary: no framing; the body gets the whole block read so far (see for_each_block)
+};
+
+/// What the command line says to every tool.
+struct Settings {
+    std::string input_format;           ///< as chosen by -F
+    std::string format;                 ///< as chosen by -f
+    std::vector<std::string> schemas;   ///< -s, in order
+    std::vector<std::string> messages;  ///< -m, in order
+    std::vector<std::string> files;     ///< FILE...; "-" or none is standard input
+    std::size_t max_record = 1U << 20;
+    bool strict = false;
+    bool follow = false;
+    std::optional<bool> progress;         ///< --progress, --no-progress
+    std::optional<std::int64_t> time_us;  ///< --time
+    std::uint64_t seed = 0;
+    int verbosity = 0;  ///< -1 quiet, 0, 1 …
 };
 
 /// What a tool's body sees of the command line and of the world.
-class Io {
+class Io : public Settings {
 public:
-    stream::Output& out;              ///< standard output
-    std::string input_format;         ///< as chosen by -F
-    std::string format;               ///< as chosen by -f
-    std::vector<std::string> schemas; ///< -s, in order
-    std::vector<std::string> messages;///< -m, in order
-    std::vector<std::string> files;   ///< FILE...; "-" or none is standard input
-    std::size_t max_record = 1U << 20;
-    bool strict = false;
-    std::optional<std::int64_t> time_us;  ///< --time, else nothing (the tool asks now_us())
-    std::uint64_t seed = 0;
-    int verbosity = 0;  ///< -1 quiet, 0, 1 …
+    Io(Settings settings, stream::Output& output, const Messages& messages);
+    ~Io();
+    Io(const Io&) = delete;
+    Io& operator=(const Io&) = delete;
+
+    stream::Output& out;  ///< standard output
 
     /// Calls `record` for each record of each input in turn. A DataError that `record` throws is
     /// reported at its place, `file:LINE:` or `file:record N (byte OFFSET):`, counted, and dropped;
-    /// with --strict it ends the run with status 65. A record over max_record is refused likewise,
+    /// with --strict it ends the run with status 65. A record over max_record is refused likewise;
     /// a cut binary record always ends the run. Output is flushed whenever the next read would
     /// wait. Text from a terminal is read after a line that says so; binary is refused.
-    /// An empty line is no record. @p record  gets the bytes without their line end; behind them
-    /// lie at least 64 more readable bytes.
+    /// An empty line is no record.
+    /// @param record  gets the bytes without their line end; behind them lie at least 64 more
+    ///                readable bytes
     void for_each(Framing framing, const std::function<void(std::string_view record)>& record);
-    void for_each_line(const std::function<void(std::string_view line)>& record) {
-        for_each(Framing::lines, record);
-    }
 
-    /// Unframed input: `block` gets all bytes that are not consumed yet, with whether the input has
-    /// ended, and returns how many it consumed; the rest comes again with more behind it. At most
-    /// max_record bytes are kept: when `block` consumes nothing of that many, status 65.
-    /// `offset` is that of the first byte in the file.
-    void for_each_block(const std::function<std::size_t(std::string_view bytes, std::uint64_t offset,
-                                                        bool ended)>& block);
+    /// Unframed input: `block` gets all bytes that are not consumed yet, the offset of the first in
+    /// the file, and whether the input has ended; it returns how many it consumed, and the rest
+    /// comes again with more behind it. Ends with status 65 when `block` consumes nothing of
+    /// max_record bytes.
+    using Block = std::function<std::size_t(std::string_view bytes, std::uint64_t offset, bool ended)>;
+    void for_each_block(const Block& block);
 
-    /// Reports a record refused at the current place (and counts it, and obeys --strict).
-    void refuse(const std::string& what);
-    /// As refuse, for unframed input: at `byte OFFSET`.
+    /// Reports what is wrong at a byte of the unframed input, counts it, and obeys --strict.
     void refuse_at(std::uint64_t offset, const std::string& what);
+    /// The same, and ends the run with status 65.
+    [[noreturn]] void stop_at(std::uint64_t offset, const std::string& what);
 
     /// Messages without a place: a warning (not with -q), an information (only with -v).
-    void warn(const std::string& what);
-    void inform(const std::string& what);
+    void warn(const std::string& what) const;
+    void inform(const std::string& what) const;
 
     /// The --time given, else the system's clock: microseconds since 1970, UTC.
     std::int64_t now_us() const;
 
-    struct Impl;
-    explicit Io(Impl& impl, stream::Output& output) : out(output), impl_(&impl) {}
+    /// Records refused so far.
+    std::uint64_t refused() const;
 
 private:
-    Impl* impl_;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace seautils::cli

@@ -1,2 +1,4 @@
-seautils_module(NAME cli SOURCES app.cpp io.cpp config_file.cpp
+seautils_module(NAME cli
+  SOURCES app.cpp config_file.cpp help.cpp io.cpp messages.cpp progress.cpp
   DEPENDS core stream schema LINK CLI11::CLI11 Boost::program_options fmt::fmt)
+target_compile_definitions(seautils_cli PRIVATE SEAUTILS_VERSION="${PROJECT_VERSION}")

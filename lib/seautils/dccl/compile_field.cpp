@@ -409,6 +409,7 @@ Compiler::Bits Compiler::ccl(Op& op, const FieldOptions& options, const CodecCho
     }
     if (codec.ccl == CclCodec::fix_age) {  // follows the rule of numbers: optional ones take a null
         op.number = make_number_code(Kind::uint32, 0, 255, 1, op.required);
+        op.max_length = 8;
         op.element_min_bits = op.number.width;
         return {op.number.width, op.number.width};
     }

@@ -1,0 +1,40 @@
+#ifndef SEAUTILS_CLI_CONFIG_FILE_HPP
+#define SEAUTILS_CLI_CONFIG_FILE_HPP
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace seautils::cli {
+
+/// An option that a configuration file may set.
+struct ConfigOption {
+    std::string key;          ///< its long name without dashes
+    std::string description;
+    std::string value;        ///< its default, or what a value looks like
+    bool repeatable = false;
+    bool flag = false;
+};
+
+/// Reads layers of configuration: lines of `key = value`, sections of `[name]` whose keys are
+/// `name.key`, comments from `#`. The first file to say a thing wins; within a file a repeatable
+/// key may come again.
+///
+/// @param options  what may be said; anything else is refused
+/// @return         the values of each key that some file sets, in the order of that file
+/// @throws ConfigError  `FILE: what`: an unknown key (proposes the nearest), a line without `=`,
+///                      more than 1 MiB
+/// @throws Error        no_input: cannot be opened
+std::map<std::string, std::vector<std::string>> read_config(const std::vector<std::string>& files,
+                                                            const std::vector<ConfigOption>& options);
+
+/// The same for one text (tests, fuzzing); `name` stands for the file in messages.
+std::map<std::string, std::vector<std::string>> parse_config(const std::string& name, const std::string& text,
+                                                             const std::vector<ConfigOption>& options);
+
+/// A file with each option, its description, and its default, all in comments.
+std::string example_config(const std::string& tool, const std::vector<ConfigOption>& options);
+
+}  // namespace seautils::cli
+
+#endif  // SEAUTILS_CLI_CONFIG_FILE_HPP
