@@ -2,6 +2,7 @@
 #include "dccl_options.hpp"
 
 #include "seautils/core/text.hpp"
+#include "seautils/dccl/field_error.hpp"
 #include "seautils/dccl/resync.hpp"
 #include "seautils/schema/csv.hpp"
 #include "seautils/schema/json.hpp"
@@ -9,6 +10,9 @@
 #include "seautils/stream/hex.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
 
 using namespace seautils;
 
@@ -34,7 +38,7 @@ public:
     /// A line or a delimited record: one frame, of one message or of several back to back.
     void record(std::string_view record) {
         if (io_.input_format == "hex")
-            bytes_ = stream::from_hex(record);
+            stream::from_hex(record, bytes_);
         else if (io_.input_format == "base64")
             bytes_ = from_base64(record);
         else
@@ -86,8 +90,7 @@ public:
 private:
     void fail(std::uint64_t offset, const DataError& e, bool resync) {
         if (!resync)
-            throw stream::at_byte(
-                offset, std::string(e.what()) + " (--resync looks on for the next message)");
+            io_.stop_at(offset, std::string(e.what()) + " (--resync looks on for the next message)");
         io_.refuse_at(offset, e.what());
         lost_ = true;
         lost_at_ = offset;
