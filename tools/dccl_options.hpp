@@ -21,6 +21,7 @@
 namespace seautils::tools {
 
 struct DcclOptions {
+    bool keep_collisions = false;  ///< types that share an identifier do no harm here
     bool lenient = false;
     bool header_only = false;
     bool full_time_resolution = false;
@@ -125,7 +126,8 @@ inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
             throw ConfigError(file + ": " + e.what());
         }
     }
-    dccl::TypeSet types(io.schemas, io.messages, program, std::move(codec));
+    dccl::TypeSet types(io.schemas, io.messages, program, std::move(codec),
+                        keep_collisions ? dccl::Collisions::keep : dccl::Collisions::refuse);
     for (const auto& [name, reason] : types.left_out()) io.warn("left out: " + reason);
     for (const std::string& tag : types.ignored_tags())
         io.inform("tag <" + tag + "> means nothing here");

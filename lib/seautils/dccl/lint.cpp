@@ -42,10 +42,11 @@ void unreachable_bound(const FieldReport& row, std::vector<Remark>& out) {
     for (const double bound : {row.number.min, row.number.max}) {
         const auto nearest = static_cast<double>(static_cast<float>(bound));
         if (encode_float(row.number, nearest)) continue;
-        out.push_back({"unreachable-bound", row.path,
-                       fmt::format("a float of {} is {:.17g}, which is out of range: use double, or a "
-                                   "wider bound",
-                                   bound, nearest)});
+        out.push_back(
+            {"unreachable-bound", row.path,
+             fmt::format("a float of {} is {:.17g}, which is out of range: use double, or a "
+                         "wider bound",
+                         bound, nearest)});
     }
 }
 
@@ -61,9 +62,10 @@ void off_grid(const FieldReport& row, const FieldOptions& options, std::vector<R
 
 void field_remarks(const FieldReport& row, int version, std::vector<Remark>& out) {
     if (row.lost) {
-        out.push_back({"lost-field", row.path,
-                       fmt::format("in_head inside of a body message: codec version {} never sends it",
-                                   version)});
+        out.push_back(
+            {"lost-field", row.path,
+             fmt::format("in_head inside of a body message: codec version {} never sends it",
+                         version)});
         return;
     }
     const FieldOptions options = field_options(*row.field->descriptor);
@@ -75,12 +77,14 @@ void field_remarks(const FieldReport& row, int version, std::vector<Remark>& out
                        "precision of an integer time counts digits of microseconds here; other "
                        "releases may differ"});
     }
-    const bool fixed_bytes = row.kind == OpKind::text && row.field->kind == Kind::bytes &&
-                             row.max_bits == row.max_length * 8ULL + (row.has_presence_cost ? 1 : 0);
+    const bool fixed_bytes =
+        row.kind == OpKind::text && row.field->kind == Kind::bytes &&
+        row.max_bits == row.max_length * 8ULL + (row.has_presence_cost ? 1 : 0);
     if (fixed_bytes && row.max_length > 1) {
-        out.push_back({"length-lost", row.path,
-                       fmt::format("always {} bytes: shorter values come back with zeros behind them",
-                                   row.max_length)});
+        out.push_back(
+            {"length-lost", row.path,
+             fmt::format("always {} bytes: shorter values come back with zeros behind them",
+                         row.max_length)});
     }
 }
 
@@ -132,10 +136,12 @@ public:
     Typical(const Program& program, std::int64_t now_s, schema::Values& values)
         : program_(program), now_s_(now_s), values_(values) {}
 
-    void steps(const std::vector<Op>& ops, std::size_t first, std::size_t last, std::uint32_t block) {
+    void steps(const std::vector<Op>& ops, std::size_t first, std::size_t last,
+               std::uint32_t block) {
         for (std::size_t at = first; at < last; at = ops[at].end) {
             const Op& op = ops[at];
-            if (op.kind == OpKind::selectors || op.kind == OpKind::lost || op.condition >= 0) continue;
+            if (op.kind == OpKind::selectors || op.kind == OpKind::lost || op.condition >= 0)
+                continue;
             if (op.in_oneof && !first_member(op)) continue;
             const std::uint32_t slot = block + op.slot;
             if (!op.repeated) {
@@ -163,7 +169,8 @@ private:
                                             : values_.add_block(slot, *op.field->message);
             return steps(ops, at + 1, op.end, block);
         }
-        if (op.kind == OpKind::text) return values_.set_text(slot, std::string((op.max_length + 1) / 2, 'x'));
+        if (op.kind == OpKind::text)
+            return values_.set_text(slot, std::string((op.max_length + 1) / 2, 'x'));
         if (op.kind == OpKind::fixed_value && !program_.fixed_value(op).text.empty()) {
             return values_.set_text(slot, program_.fixed_value(op).text);
         }
@@ -175,22 +182,38 @@ private:
         schema::Slot& s = values_[slot];
         const std::uint64_t middle = (std::uint64_t{1} << op.number.width) / 4;
         switch (op.kind) {
-            case OpKind::integer: s.i = decode_integer(op.number, middle); break;
-            case OpKind::floating: s.d = decode_float(op.number, middle); break;
-            case OpKind::enumeration: s.i = program_.enum_code(op).numbers.front(); break;
-            case OpKind::fixed_value: s.u = program_.fixed_value(op).value.u; break;
-            case OpKind::time:
-                if (op.field->kind == Kind::float64) s.d = static_cast<double>(now_s_);
-                else s.i = now_s_ * 1'000'000;
+            case OpKind::integer:
+                s.i = decode_integer(op.number, middle);
                 break;
-            case OpKind::arithmetic: number(op, s, program_.model(op).value_bound.front()); break;
-            default: number(op, s, 1); break;
+            case OpKind::floating:
+                s.d = decode_float(op.number, middle);
+                break;
+            case OpKind::enumeration:
+                s.i = program_.enum_code(op).numbers.front();
+                break;
+            case OpKind::fixed_value:
+                s.u = program_.fixed_value(op).value.u;
+                break;
+            case OpKind::time:
+                if (op.field->kind == Kind::float64)
+                    s.d = static_cast<double>(now_s_);
+                else
+                    s.i = now_s_ * 1'000'000;
+                break;
+            case OpKind::arithmetic:
+                number(op, s, program_.model(op).value_bound.front());
+                break;
+            default:
+                number(op, s, 1);
+                break;
         }
     }
 
     static void number(const Op& op, schema::Slot& s, double x) {
-        if (op.field->kind == Kind::float32 || op.field->kind == Kind::float64) s.d = x;
-        else s.i = static_cast<std::int64_t>(x);
+        if (op.field->kind == Kind::float32 || op.field->kind == Kind::float64)
+            s.d = x;
+        else
+            s.i = static_cast<std::int64_t>(x);
     }
 
     const Program& program_;
@@ -198,7 +221,8 @@ private:
     schema::Values& values_;
 };
 
-std::uint64_t plain_block(const schema::Values& values, const schema::Layout& layout, std::uint32_t block) {
+std::uint64_t plain_block(const schema::Values& values, const schema::Layout& layout,
+                          std::uint32_t block) {
     std::uint64_t bytes = 0;
     for (std::uint32_t k = 0; k < layout.fields.size(); ++k) {
         const schema::Field& f = layout.fields[k];
@@ -206,14 +230,23 @@ std::uint64_t plain_block(const schema::Values& values, const schema::Layout& la
         if (!slot.present) continue;
         const std::uint32_t count = f.repeated ? slot.aux : 1;
         for (std::uint32_t e = 0; e < count; ++e) {
-            const schema::Slot& one = f.repeated ? values[static_cast<std::uint32_t>(slot.u) + e] : slot;
+            const schema::Slot& one =
+                f.repeated ? values[static_cast<std::uint32_t>(slot.u) + e] : slot;
             switch (f.kind) {
-                case Kind::message: bytes += plain_block(values, *f.message, static_cast<std::uint32_t>(one.u)); break;
+                case Kind::message:
+                    bytes += plain_block(values, *f.message, static_cast<std::uint32_t>(one.u));
+                    break;
                 case Kind::string:
-                case Kind::bytes: bytes += (one.aux + 3U) / 4 * 4; break;
+                case Kind::bytes:
+                    bytes += (one.aux + 3U) / 4 * 4;
+                    break;
                 case Kind::int64:
-                case Kind::uint64: bytes += 8; break;
-                default: bytes += 4; break;
+                case Kind::uint64:
+                    bytes += 8;
+                    break;
+                default:
+                    bytes += 4;
+                    break;
             }
         }
     }
@@ -229,6 +262,8 @@ void typical_values(const Program& program, std::int64_t now_s, schema::Values& 
     typical.steps(program.body(), 0, program.body().size(), 0);
 }
 
-std::uint64_t plain_bytes(const schema::Values& values) { return plain_block(values, values.layout(), 0); }
+std::uint64_t plain_bytes(const schema::Values& values) {
+    return plain_block(values, values.layout(), 0);
+}
 
 }  // namespace seautils::dccl

@@ -26,10 +26,12 @@ struct TypeSet::Impl {
     std::unordered_map<const Program*, const Type*> by_program;
     std::vector<std::pair<std::string, std::string>> left_out;
     bool chosen = false;
+    Collisions collisions = Collisions::refuse;
 
     void load_protobuf(const std::vector<std::string>& messages, const ProgramOptions& options);
     void load_legacy(const std::vector<std::string>& messages,
                      const std::vector<std::string>& files);
+    void load(const std::shared_ptr<const Program>& program);
     void add(const google::protobuf::Descriptor& descriptor, const ProgramOptions& options);
     LegacyOptions options_for(const LegacyMessage& message) const;
 };
@@ -41,7 +43,8 @@ bool is_xml(const std::string& path) { return path.ends_with(".xml"); }
 }  // namespace
 
 TypeSet::TypeSet(const std::vector<std::string>& schemas, const std::vector<std::string>& messages,
-                 const ProgramOptions& program_options, CodecOptions codec_options) {
+                 const ProgramOptions& program_options, CodecOptions codec_options,
+                 Collisions collisions) {
     const auto xml =
         static_cast<std::size_t>(std::count_if(schemas.begin(), schemas.end(), is_xml));
     if (xml != 0 && xml != schemas.size()) {
@@ -52,6 +55,7 @@ TypeSet::TypeSet(const std::vector<std::string>& schemas, const std::vector<std:
     const std::int64_t now_s = codec_options.now_s;
     const auto skip = codec_options.skip_crypto_ids;
     impl_ = std::make_unique<Impl>(std::move(codec_options));
+    impl_->collisions = collisions;
     impl_->chosen = !messages.empty();
     if (xml == 0) {
         for (const std::string& path : schemas) impl_->pool.load(path);
@@ -72,13 +76,21 @@ TypeSet::~TypeSet() = default;
 TypeSet::TypeSet(TypeSet&&) noexcept = default;
 TypeSet& TypeSet::operator=(TypeSet&&) noexcept = default;
 
+void TypeSet::Impl::load(const std::shared_ptr<const Program>& program) {
+    try {
+        codec.load(program);
+    } catch (const ConfigError&) {
+        if (collisions == Collisions::refuse) throw;
+    }
+}
+
 void TypeSet::Impl::add(const google::protobuf::Descriptor& descriptor,
                         const ProgramOptions& options) {
     Type type;
     type.layout = &pool.layout(descriptor);
     type.name = type.layout->full_name;
     type.program = Program::compile(*type.layout, options);
-    codec.load(type.program);
+    load(type.program);
     types.push_back(std::move(type));
 }
 
@@ -103,7 +115,7 @@ void TypeSet::Impl::load_protobuf(const std::vector<std::string>& messages,
             left_out.emplace_back(layout.full_name, e.what());
             continue;
         }
-        codec.load(program);
+        load(program);
         types.push_back({layout.full_name, &layout, program, nullptr});
     }
     if (!types.empty()) return;

@@ -20,15 +20,20 @@ struct Type {
     const LegacyMessage* legacy = nullptr;   ///< null for a protobuf type
 };
 
+/// What to do when two types have one identifier, which a receiver cannot tell apart.
+enum class Collisions : std::uint8_t { refuse, keep };
+
 /// The types that a tool was given on its command line, with the codec that they share.
 class TypeSet {
 public:
     /// @param schemas   .proto files, folders of them, or .xml files of DCCL 1; not both kinds
     /// @param messages  names to choose; empty: all types that carry dccl options
+    /// @param collisions  keep: only for looking at the types; frames are of the first with their id
     /// @throws ConfigError  nothing to code; a chosen type does not compile; two types share an id
     /// @throws Error        no_input: a file cannot be opened
     TypeSet(const std::vector<std::string>& schemas, const std::vector<std::string>& messages,
-            const ProgramOptions& program_options, CodecOptions codec_options);
+            const ProgramOptions& program_options, CodecOptions codec_options,
+            Collisions collisions = Collisions::refuse);
     ~TypeSet();
     TypeSet(TypeSet&&) noexcept;
     TypeSet& operator=(TypeSet&&) noexcept;
