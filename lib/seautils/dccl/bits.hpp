@@ -117,6 +117,10 @@ private:
             std::memcpy(&word, bytes_.data() + byte, 8);
             return detail::little_endian(word);
         }
+        if (bytes_.size() >= 8 && rest > 0) {
+            std::memcpy(&word, bytes_.data() + bytes_.size() - 8, 8);
+            return detail::little_endian(word) >> (64 - 8 * rest);
+        }
         for (std::size_t k = 0; k < rest; ++k) {
             word |= std::uint64_t{static_cast<unsigned char>(bytes_[byte + k])} << (8 * k);
         }

@@ -1,7 +1,6 @@
 #include "seautils/dccl/codec.hpp"
 
 #include "seautils/dccl/codec_impl.hpp"
-#include "seautils/schema/message.hpp"
 
 #include <fmt/format.h>
 
@@ -55,7 +54,7 @@ std::int32_t id_of(const Identifier& identifier, bool ccl) {
 /// @throws DataError  a required field is unset in the message or below; its path
 void check_required(const schema::Layout& layout, const schema::Values& values,
                     std::uint32_t block) {
-    for (std::uint32_t k = 0; k < layout.fields.size(); ++k) {
+    for (const std::uint32_t k : layout.to_check) {
         const schema::Field& f = layout.fields[k];
         const schema::Slot& slot = values[block + k];
         if (f.required && !slot.present) throw FieldError{f.name, "is required and not given"};
@@ -231,14 +230,14 @@ std::size_t Codec::size(const Program& program, const schema::Values& values) {
 
 void Codec::encode(const Program& program, const google::protobuf::Message& message,
                    std::string& out) {
-    schema::from_message(message, program.layout(), impl_->scratch);
+    impl_->bridge.read(message, program.layout(), impl_->scratch);
     encode(program, impl_->scratch, out);
 }
 
 Codec::Decoded Codec::decode(std::string_view bytes, google::protobuf::Message& message,
                              const Program& expected) {
     const Decoded decoded = decode(bytes, impl_->scratch, &expected);
-    schema::to_message(impl_->scratch, message);
+    impl_->bridge.write(impl_->scratch, message);
     return decoded;
 }
 

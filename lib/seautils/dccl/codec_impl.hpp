@@ -7,6 +7,7 @@
 #include "seautils/dccl/crypto.hpp"
 #include "seautils/dccl/dynamic.hpp"
 #include "seautils/dccl/field_error.hpp"
+#include "seautils/schema/message.hpp"
 
 #include <map>
 #include <unordered_map>
@@ -23,6 +24,7 @@ struct Codec::Impl {
     std::map<std::string, entropy::Counts> encoder_counts, decoder_counts;  ///< by model name
     BitWriter writer;
     schema::Values scratch;
+    schema::MessageBridge bridge;
     std::string body;
     std::vector<double> run;  ///< values of an arithmetic run
 

@@ -207,6 +207,16 @@ void Compiler::add_lost(const schema::Field& f, std::uint32_t index, std::vector
     program_->report_.push_back(row);
 }
 
+namespace {
+
+bool is_plain(const Op& op) {
+    const bool own_way = op.kind == OpKind::arithmetic || op.kind == OpKind::fixed_value ||
+                         op.kind == OpKind::hash;
+    return !own_way && !op.repeated && !op.in_oneof && op.condition < 0;
+}
+
+}  // namespace
+
 void Compiler::add(const schema::Field& f, std::uint32_t index, const FieldOptions& options,
                    std::vector<Op>& ops, const Place& place, const Place& inside) {
     const std::string path = place.path + f.name;
@@ -258,6 +268,7 @@ void Compiler::add(const schema::Field& f, std::uint32_t index, const FieldOptio
         refuse(path, op.in_oneof ? "a oneof member cannot be in the header"
                                  : "its size varies, which the header does not allow");
     }
+    op.plain = is_plain(op);
     ops[at] = op;
     FieldReport& r = program_->report_[row];
     r.kind = op.kind;

@@ -65,7 +65,13 @@ void Decoder::range(std::size_t first, std::size_t last, const Frame& frame) {
         return ops_[at].field != nullptr ? ops_[at].field->name : std::string("oneof");
     };
     try {
-        for (; at < last; at = ops_[at].end) step(ops_[at], at, frame);
+        for (; at < last; at = ops_[at].end) {
+            const Op& op = ops_[at];
+            if (op.plain)
+                single(op, at, frame.block + op.slot, frame);
+            else
+                step(op, at, frame);
+        }
     } catch (FieldError& e) {
         e.enter(name());
         throw;

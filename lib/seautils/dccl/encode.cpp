@@ -71,7 +71,15 @@ void Encoder::part(const std::vector<Op>& ops) {
 void Encoder::range(std::size_t first, std::size_t last, const Frame& frame) {
     std::size_t at = first;
     try {
-        for (; at < last; at = ops_[at].end) step(ops_[at], at, frame);
+        for (; at < last; at = ops_[at].end) {
+            const Op& op = ops_[at];
+            if (!op.plain) {
+                step(op, at, frame);
+                continue;
+            }
+            const Slot& slot = values_[frame.block + op.slot];
+            slot.present ? value(op, at, slot, frame) : unset(op);
+        }
     } catch (FieldError& e) {
         if (ops_[at].field != nullptr) e.enter(ops_[at].field->name);
         throw;

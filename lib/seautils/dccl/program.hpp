@@ -43,6 +43,7 @@ struct Op {
     bool presence_bit = false;  ///< a bit says whether anything follows
     bool repeated = false;
     bool empty_is_unset = false;  ///< text: length 0 decodes as unset (versions 2 and 3)
+    bool plain = false;           ///< no repeat, oneof, condition or kind that has ways of its own
     bool in_oneof = false;        ///< takes no bits unless it is the selected member
     bool required = false;        ///< R of the specification: no null code, no presence bit
     bool drop_empty = false;      ///< version 2 message: nothing set inside means absent

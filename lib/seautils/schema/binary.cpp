@@ -217,14 +217,53 @@ private:
     Values& values_;
 };
 
-void put_varint(std::string& out, std::uint64_t x) {
-    for (; x >= 0x80; x >>= 7) out += static_cast<char>((x & 0x7f) | 0x80);
-    out += static_cast<char>(x);
-}
+/// Appends to a string by a pointer into it. Whoever puts first asks for the room.
+class Appender {
+public:
+    explicit Appender(std::string& out) : out_(out), at_(out.size()) { room(256); }
+    Appender(const Appender&) = delete;
+    Appender& operator=(const Appender&) = delete;
+    ~Appender() { out_.resize(at_); }
 
-void put_fixed(std::string& out, std::uint64_t x, unsigned count) {
-    for (unsigned k = 0; k < count; ++k, x >>= 8) out += static_cast<char>(x & 0xff);
-}
+    /// Makes sure that `count` bytes more can be put.
+    void room(std::size_t count) {
+        if (out_.size() - at_ < count) out_.resize(2 * out_.size() + count);
+    }
+    std::size_t at() const { return at_; }
+
+    void varint(std::uint64_t x) {
+        for (; x >= 0x80; x >>= 7) out_[at_++] = static_cast<char>((x & 0x7f) | 0x80);
+        out_[at_++] = static_cast<char>(x);
+    }
+    void fixed(std::uint64_t x, unsigned count) {
+        for (unsigned k = 0; k < count; ++k, x >>= 8) out_[at_ + k] = static_cast<char>(x & 0xff);
+        at_ += count;
+    }
+    void bytes(std::string_view text) {
+        room(text.size());
+        std::memcpy(out_.data() + at_, text.data(), text.size());
+        at_ += text.size();
+    }
+
+    /// Leaves a byte for the length of what comes; settle() fills it in.
+    std::size_t begin_length() { return at_++; }
+    void settle(std::size_t begin) {
+        const std::size_t length = at_ - begin - 1;
+        std::size_t more = 0;
+        for (std::size_t rest = length; rest >= 0x80; rest >>= 7) ++more;
+        if (more > 0) {
+            room(more);
+            std::memmove(out_.data() + begin + 1 + more, out_.data() + begin + 1, length);
+        }
+        at_ = begin;
+        varint(length);
+        at_ += length;
+    }
+
+private:
+    std::string& out_;
+    std::size_t at_;
+};
 
 class Writer {
 public:
@@ -249,23 +288,19 @@ public:
     }
 
 private:
-    void tag(const Field& f, unsigned type) { put_varint(out_, static_cast<std::uint64_t>(f.number) << 3 | type); }
-
-    /// Writes a length in front of what `write` appends.
-    template <class Write>
-    void prefixed(Write write) {
-        const std::size_t start = out_.size();
-        write();
-        std::string prefix;
-        put_varint(prefix, out_.size() - start);
-        out_.insert(start, prefix);
+    void tag(const Field& f, unsigned type) {
+        out_.room(32);  // a tag of 5 bytes, a length, and a number of at most 10
+        out_.varint(static_cast<std::uint64_t>(f.number) << 3 | type);
     }
 
     void packed(const Field& f, const Slot& slot) {
         tag(f, length);
-        prefixed([&] {
-            for (std::uint32_t e = 0; e < slot.aux; ++e) scalar(f, values_[static_cast<std::uint32_t>(slot.u) + e]);
-        });
+        const std::size_t begin = out_.begin_length();
+        for (std::uint32_t e = 0; e < slot.aux; ++e) {
+            out_.room(16);
+            scalar(f, values_[static_cast<std::uint32_t>(slot.u) + e]);
+        }
+        out_.settle(begin);
     }
 
     void sub_message(const Field& f, const Slot& s) {
@@ -274,29 +309,31 @@ private:
             message(*f.message, block);
             tag(f, end_group);
         } else {
-            prefixed([&] { message(*f.message, block); });
+            const std::size_t begin = out_.begin_length();
+            message(*f.message, block);
+            out_.settle(begin);
         }
     }
 
     void scalar(const Field& f, const Slot& s) {
         switch (f.wire_form) {
             case WireForm::length:
-                put_varint(out_, s.aux);
-                out_.append(values_.text(s));
+                out_.varint(s.aux);
+                out_.bytes(values_.text(s));
                 return;
-            case WireForm::fixed64: put_fixed(out_, s.u, 8); return;
+            case WireForm::fixed64: out_.fixed(s.u, 8); return;
             case WireForm::fixed32:
-                put_fixed(out_, f.kind == Kind::float32 ? std::bit_cast<std::uint32_t>(static_cast<float>(s.d)) : s.u, 4);
+                out_.fixed(f.kind == Kind::float32 ? std::bit_cast<std::uint32_t>(static_cast<float>(s.d)) : s.u, 4);
                 return;
             case WireForm::zigzag:
-                put_varint(out_, static_cast<std::uint64_t>(s.i) << 1 ^ static_cast<std::uint64_t>(s.i >> 63));
+                out_.varint(static_cast<std::uint64_t>(s.i) << 1 ^ static_cast<std::uint64_t>(s.i >> 63));
                 return;
-            default: put_varint(out_, s.u); return;
+            default: out_.varint(s.u); return;
         }
     }
 
     const Values& values_;
-    std::string& out_;
+    Appender out_;
 };
 
 }  // namespace

@@ -67,6 +67,10 @@ void fill_indices(Layout& layout) {
     for (std::uint32_t k = 0; k < layout.fields.size(); ++k) {
         if (!layout.fields[k].json_name.empty()) layout.by_name.emplace(layout.fields[k].json_name, k);
     }
+    for (std::uint32_t k = 0; k < layout.fields.size(); ++k) {
+        const Field& f = layout.fields[k];
+        if (f.required || f.kind == Kind::message) layout.to_check.push_back(k);
+    }
     layout.by_number = sorted_indices(layout.fields.size(), [&](std::uint32_t a, std::uint32_t b) {
         return layout.fields[a].number < layout.fields[b].number;
     });

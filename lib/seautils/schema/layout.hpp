@@ -95,6 +95,7 @@ struct Layout {
 
     std::unordered_map<std::string_view, std::uint32_t> by_name;  ///< names and json_names
     std::vector<std::uint32_t> by_number;                         ///< indices, sorted by number
+    std::vector<std::uint32_t> to_check;  ///< indices of what is required, and of messages
 };
 
 /// Owns layouts, makes each message type's only once, and keeps their addresses.

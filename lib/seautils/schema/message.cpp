@@ -169,6 +169,28 @@ void to_message(const Values& values, Message& message) {
     Writer(values).block(0, values.layout(), message);
 }
 
+namespace {
+
+bool is_compiled(const Message& message) {
+    return message.GetReflection()->GetMessageFactory() ==
+           google::protobuf::MessageFactory::generated_factory();
+}
+
+}  // namespace
+
+void MessageBridge::read(const Message& message, const Layout& layout, Values& values) {
+    if (!is_compiled(message)) return from_message(message, layout, values);
+    if (!message.SerializePartialToString(&wire_)) throw DataError("the message is over 2 GB");
+    read_binary(wire_, layout, values);
+}
+
+void MessageBridge::write(const Values& values, Message& message) {
+    if (!is_compiled(message)) return to_message(values, message);
+    wire_.clear();
+    write_binary(values, wire_);
+    message.ParsePartialFromString(wire_);
+}
+
 void read_text(std::string_view text, Pool& pool, const Layout& layout, Values& values) {
     const auto message = pool.new_message(*layout.descriptor);
     FirstFault fault;

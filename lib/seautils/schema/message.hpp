@@ -18,11 +18,22 @@ void from_message(const google::protobuf::Message& message, const Layout& layout
 /// The other way: clears the message first. A legacy null element becomes the type's default.
 void to_message(const Values& values, google::protobuf::Message& message);
 
+/// The same two; but messages of compiled classes, which read and write their binary form faster
+/// than reflection reaches their fields, go by way of that form.
+class MessageBridge {
+public:
+    void read(const google::protobuf::Message& message, const Layout& layout, Values& values);
+    void write(const Values& values, google::protobuf::Message& message);
+
+private:
+    std::string wire_;  ///< kept, so that nothing is allocated from message to message
+};
+
 /// Reads protobuf's binary form into `values` without a message in between. Unknown fields are
 /// skipped; a sub-message that comes twice is merged, a scalar's last value counts, packed and
 /// unpacked are both read.
 /// @throws DataError  malformed or truncated (names the byte offset), more than 32 levels, invalid
-///                    UTF-8 in a proto3 string
+///                    UTF-8 in a string
 void read_binary(std::string_view bytes, const Layout& layout, Values& values);
 
 /// Appends protobuf's binary form, fields in order of number (as protobuf's own serializer does).
