@@ -39,6 +39,14 @@ public:
     [[noreturn]] void refuse(const char* what) const { throw DataError(fmt::format("byte {}: {}", at_, what)); }
 
     std::uint64_t get_varint() {
+        // nearly all: tags of low fields, lengths, small numbers
+        if (at_ < end_ && static_cast<unsigned char>(all_[at_]) < 0x80) {
+            return static_cast<unsigned char>(all_[at_++]);
+        }
+        return get_long_varint();
+    }
+
+    std::uint64_t get_long_varint() {
         std::uint64_t x = 0;
         for (unsigned shift = 0; shift < 70; shift += 7) {
             if (at_ == end_) refuse("the message is cut short");
@@ -49,14 +57,13 @@ public:
         refuse("a varint of more than ten bytes");
     }
 
-    std::uint64_t get_fixed(unsigned count) {
+    template <unsigned count>
+    std::uint64_t get_fixed() {
         if (end_ - at_ < count) refuse("the message is cut short");
         std::uint64_t x = 0;
-        for (unsigned k = 0; k < count; ++k) {
-            x |= std::uint64_t{static_cast<unsigned char>(all_[at_ + k])} << (8 * k);
-        }
+        std::memcpy(&x, all_.data() + at_, count);
         at_ += count;
-        return x;
+        return std::endian::native == std::endian::big ? __builtin_bswap64(x) : x;
     }
 
     std::string_view get_bytes(std::uint64_t count) {
@@ -166,8 +173,8 @@ private:
             return values_.set_text(slot, text);
         }
         Slot& s = values_[slot];
-        if (f.wire_form == WireForm::fixed64) s.u = in.get_fixed(8);
-        else if (f.wire_form == WireForm::fixed32) from_32(f, static_cast<std::uint32_t>(in.get_fixed(4)), s);
+        if (f.wire_form == WireForm::fixed64) s.u = in.get_fixed<8>();
+        else if (f.wire_form == WireForm::fixed32) from_32(f, static_cast<std::uint32_t>(in.get_fixed<4>()), s);
         else from_varint(f, in.get_varint(), s);
         const bool closed = f.kind == Kind::enumeration && !f.enumeration->open;
         const bool undeclared = closed && f.enumeration->find(static_cast<std::int32_t>(s.i)) == nullptr;
@@ -197,8 +204,8 @@ private:
     void skip(Bytes& in, unsigned type, std::uint32_t number, int depth) {
         switch (type) {
             case varint: in.get_varint(); return;
-            case fixed64: in.get_fixed(8); return;
-            case fixed32: in.get_fixed(4); return;
+            case fixed64: in.get_fixed<8>(); return;
+            case fixed32: in.get_fixed<4>(); return;
             case length: in.get_bytes(in.get_varint()); return;
             case begin_group: break;
             default: in.refuse("not a wire type");

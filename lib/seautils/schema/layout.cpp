@@ -96,8 +96,7 @@ std::int32_t Layout::find(std::string_view name, std::uint32_t hint) const {
     return at == by_name.end() ? -1 : static_cast<std::int32_t>(at->second);
 }
 
-std::int32_t Layout::find_number(std::int32_t number, std::uint32_t hint) const {
-    if (hint < fields.size() && fields[hint].number == number) return static_cast<std::int32_t>(hint);
+std::int32_t Layout::search_number(std::int32_t number) const {
     const auto at = std::lower_bound(by_number.begin(), by_number.end(), number,
                                      [&](std::uint32_t k, std::int32_t n) { return fields[k].number < n; });
     return at != by_number.end() && fields[*at].number == number ? static_cast<std::int32_t>(*at) : -1;

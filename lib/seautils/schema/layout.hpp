@@ -91,11 +91,17 @@ struct Layout {
     /// that passes the index after the last hit pays one comparison a field for ordered input.
     std::int32_t find(std::string_view name, std::uint32_t hint = 0) const;
     /// Index of the field with that number, or -1; `hint` as above.
-    std::int32_t find_number(std::int32_t number, std::uint32_t hint = 0) const;
+    std::int32_t find_number(std::int32_t number, std::uint32_t hint = 0) const {
+        const bool hit = hint < fields.size() && fields[hint].number == number;
+        return hit ? static_cast<std::int32_t>(hint) : search_number(number);
+    }
 
     std::unordered_map<std::string_view, std::uint32_t> by_name;  ///< names and json_names
     std::vector<std::uint32_t> by_number;                         ///< indices, sorted by number
     std::vector<std::uint32_t> to_check;  ///< indices of what is required, and of messages
+
+private:
+    std::int32_t search_number(std::int32_t number) const;
 };
 
 /// Owns layouts, makes each message type's only once, and keeps their addresses.
