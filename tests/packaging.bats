@@ -110,7 +110,7 @@ make_debs() {
     assert_works "$BATS_TEST_TMPDIR/tools/usr"
     run_quiet dpkg-deb -f "$tools_deb" Package Version Depends
     assert_line 'Package: seautils'
-    assert_line --regexp '^Depends: .*libc6 .*libprotobuf[0-9]+'
+    assert_line --regexp '^Depends: .*libc6 .*liblua5.3-0'
     refute_output --partial -dev
     run_quiet dpkg-deb -c "$tools_deb"
     assert_line --regexp ' \./usr/share/zsh/vendor-completions/_seautils$'

@@ -78,7 +78,12 @@ void Encoder::range(std::size_t first, std::size_t last, const Frame& frame) {
                 continue;
             }
             const Slot& slot = values_[frame.block + op.slot];
-            slot.present ? value(op, at, slot, frame) : unset(op);
+            if (!slot.present)
+                unset(op);
+            else if (op.kind == OpKind::floating)
+                number(op, encode_float(op.number, slot.d), slot);
+            else
+                value(op, at, slot, frame);
         }
     } catch (FieldError& e) {
         if (ops_[at].field != nullptr) e.enter(ops_[at].field->name);
@@ -194,7 +199,6 @@ void Encoder::value(const Op& op, std::size_t at, const Slot& slot, const Frame&
         case OpKind::integer:
             return number(op, encode_integer(op.number, slot.i), slot);
         case OpKind::floating:
-            if (std::isnan(slot.d)) throw FieldError{"", "is NaN, which has no code"};
             return number(op, encode_float(op.number, slot.d), slot);
         case OpKind::boolean:
             return boolean(op, slot.i != 0);
@@ -236,6 +240,9 @@ void Encoder::selectors(const Op& op, const Frame& frame) {
 }
 
 void Encoder::out_of_range(const Op& op, const Slot& slot) {
+    if (op.kind == OpKind::floating && std::isnan(slot.d)) {
+        throw FieldError{"", "is NaN, which has no code"};
+    }
     if (!codec_.options.lenient) {
         throw FieldError{"", fmt::format("{} is outside {} to {}{}", shown(op, slot, values_),
                                          op.number.min, op.number.max, with_unit(op))};
