@@ -2,6 +2,7 @@
 # What is installed and packaged works where it is put.
 
 setup_file() {
+    load test_helper
     build=$SEAUTILS_BUILD
     root=$BATS_FILE_TMPDIR/root
     export build root
