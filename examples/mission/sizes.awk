@@ -1,6 +1,6 @@
 # sizes.awk - the table of sizes
 #
-# od -An -v -tu1 -w1 got.bin | awk -v types=got.ndjson -v hex=sent.hex -v csv_bytes=N -f sizes.awk
+# od -An -v -tu1 -w1 got.bin | awk -v types=grouped.ndjson -v hex=grouped.hex -v csv_bytes=N -f sizes.awk
 #
 # The input is a delimited stream, one byte (in decimal) a line; message k of it, line k of `types`
 # and line k of `hex` are the same message.
