@@ -90,7 +90,8 @@ public:
 private:
     void fail(std::uint64_t offset, const DataError& e, bool resync) {
         if (!resync)
-            io_.stop_at(offset, std::string(e.what()) + " (--resync looks on for the next message)");
+            io_.stop_at(offset,
+                        std::string(e.what()) + " (--resync looks on for the next message)");
         io_.refuse_at(offset, e.what());
         lost_ = true;
         lost_at_ = offset;

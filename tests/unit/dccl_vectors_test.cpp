@@ -285,9 +285,12 @@ void complete(json& v, const std::vector<json>& all) {
             if (lib == "ccl") config["libs"] = json::array({"ccl"});
         }
         for (const json& model : other["config"].value("models", json::array())) {
-            const auto name = [](const json& m) { return m.get<std::string>().substr(0, m.get<std::string>().find(' ', 7)); };
+            const auto name = [](const json& m) {
+                return m.get<std::string>().substr(0, m.get<std::string>().find(' ', 7));
+            };
             const json known = config.value("models", json::array());
-            const bool twice = std::any_of(known.begin(), known.end(), [&](const json& k) { return name(k) == name(model); });
+            const bool twice = std::any_of(known.begin(), known.end(),
+                                           [&](const json& k) { return name(k) == name(model); });
             if (!twice) config["models"].push_back(model);
         }
     }

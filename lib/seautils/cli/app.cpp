@@ -38,7 +38,8 @@ struct App::Impl {
     void parse(int argc, char** argv);
     void apply_config(int argc, char** argv);
     void settle();
-    void check_format(const char* option, const std::string& name, const std::vector<std::string>& known) const;
+    void check_format(const char* option, const std::string& name,
+                      const std::vector<std::string>& known) const;
     int run(const std::function<void(Io&)>& body);
 };
 
@@ -65,7 +66,8 @@ int status_of(ExitCode code) { return static_cast<int>(code); }
 
 }  // namespace
 
-App::App(const std::string& name, const std::string& summary, const std::string& examples, Options shared)
+App::App(const std::string& name, const std::string& summary, const std::string& examples,
+         Options shared)
     : impl_(std::make_unique<Impl>(name, summary, examples, shared)) {
     impl_->add_common();
     impl_->add_stream();
@@ -77,12 +79,16 @@ CLI::App& App::options() { return impl_->app; }
 
 void App::Impl::add_common() {
     app.set_help_flag("-h,--help", "Show this help");
-    app.set_version_flag("-V,--version", app.get_name() + " (seautils) " SEAUTILS_VERSION, "Show the version");
+    app.set_version_flag("-V,--version", app.get_name() + " (seautils) " SEAUTILS_VERSION,
+                         "Show the version");
     app.add_flag("-q,--quiet", quiet, "Errors only");
     app.add_flag("-v,--verbose", verbose, "Say more");
-    app.add_option("--color", color, "Colour of messages: auto, always, never")->option_text("WHEN");
+    app.add_option("--color", color, "Colour of messages: auto, always, never")
+        ->option_text("WHEN");
     if (shared.schema) {
-        app.add_option("-s,--schema", settings.schemas, "Schema: a .proto file, a folder of them, or an .xml file of DCCL 1; may repeat")
+        app.add_option(
+               "-s,--schema", settings.schemas,
+               "Schema: a .proto file, a folder of them, or an .xml file of DCCL 1; may repeat")
             ->allow_extra_args(false)
             ->option_text("PATH");
         app.add_option("-m,--message", settings.messages, "Message type; may repeat")
@@ -90,15 +96,18 @@ void App::Impl::add_common() {
             ->option_text("NAME");
     }
     if (shared.config) {
-        app.add_option("-c,--config", configs, "Read options from FILE; may repeat, the first to say a thing wins")
+        app.add_option("-c,--config", configs,
+                       "Read options from FILE; may repeat, the first to say a thing wins")
             ->allow_extra_args(false)
             ->option_text("FILE");
         app.add_flag("--print-config", print_config, "Print an example of such a file");
     }
     if (shared.time) {
-        app.add_option("--time", time, "Stands in for the clock: 2024-05-01T12:00:25Z or @SECONDS")->option_text("TIME");
+        app.add_option("--time", time, "Stands in for the clock: 2024-05-01T12:00:25Z or @SECONDS")
+            ->option_text("TIME");
     }
-    if (shared.seed) app.add_option("--seed", settings.seed, "Seed of random numbers, 0")->option_text("N");
+    if (shared.seed)
+        app.add_option("--seed", settings.seed, "Seed of random numbers, 0")->option_text("N");
 }
 
 void App::Impl::add_stream() {
@@ -107,22 +116,28 @@ void App::Impl::add_stream() {
     app.add_option("--max-record", settings.max_record, "Refuse a longer record (1048576)")
         ->option_text("BYTES")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 24));
-    app.add_flag("--follow", settings.follow, "At the end of FILE wait for more; open it again when it is replaced");
-    progress = app.add_flag("--progress,!--no-progress", show_progress, "Say how far it is, on a terminal");
+    app.add_flag("--follow", settings.follow,
+                 "At the end of FILE wait for more; open it again when it is replaced");
+    progress = app.add_flag("--progress,!--no-progress", show_progress,
+                            "Say how far it is, on a terminal");
     app.add_option("FILE", settings.files, "Inputs; none or -: standard input");
 }
 
 void App::input_formats(std::vector<std::string> names) {
     impl_->input_formats = std::move(names);
     impl_->settings.input_format = impl_->input_formats.front();
-    impl_->app.add_option("-F,--input-format", impl_->settings.input_format, "Format of input: " + joined(impl_->input_formats))
+    impl_->app
+        .add_option("-F,--input-format", impl_->settings.input_format,
+                    "Format of input: " + joined(impl_->input_formats))
         ->option_text("FMT");
 }
 
 void App::output_formats(std::vector<std::string> names) {
     impl_->output_formats = std::move(names);
     impl_->settings.format = impl_->output_formats.front();
-    impl_->app.add_option("-f,--format", impl_->settings.format, "Format of output: " + joined(impl_->output_formats))
+    impl_->app
+        .add_option("-f,--format", impl_->settings.format,
+                    "Format of output: " + joined(impl_->output_formats))
         ->option_text("FMT");
 }
 
@@ -156,7 +171,8 @@ void App::Impl::apply_config(int argc, char** argv) {
     }
 }
 
-void App::Impl::check_format(const char* option, const std::string& name, const std::vector<std::string>& known) const {
+void App::Impl::check_format(const char* option, const std::string& name,
+                             const std::vector<std::string>& known) const {
     if (known.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
     usage(fmt::format("option {}: {} is none of {}", option, quote(name), joined(known)));
 }
@@ -171,7 +187,8 @@ void App::Impl::settle() {
     check_format("--format", settings.format, output_formats);
     settings.verbosity = quiet ? -1 : verbose ? 1 : 0;
     if (progress != nullptr && progress->count() > 0) settings.progress = show_progress;
-    if (shared.schema && settings.schemas.empty()) usage("option --schema is required (try --help)");
+    if (shared.schema && settings.schemas.empty())
+        usage("option --schema is required (try --help)");
     if (!time.empty()) {
         try {
             settings.time_us = parse_utc(time);
@@ -216,7 +233,8 @@ int App::main(int argc, char** argv, const std::function<void(Io&)>& body) {
     try {
         try {
             a.parse(argc, argv);
-            if (a.print_config) return print(example_config(a.app.get_name(), config_options(a.app)));
+            if (a.print_config)
+                return print(example_config(a.app.get_name(), config_options(a.app)));
             a.apply_config(argc, argv);
         } catch (const CLI::CallForHelp&) {
             return print(help_text(a.app, a.examples));

@@ -15,10 +15,11 @@ namespace seautils::cli {
 /// Which of the shared options a tool has, beside help, version, quiet, verbose and color.
 struct Options {
     bool schema = false;  ///< -s/--schema (may repeat, required), -m/--message (may repeat)
-    bool config = false;  ///< -c/--config (may repeat, the first to say a thing wins), --print-config
-    bool stream = true;   ///< --strict, --max-record, --follow, --progress; FILE...
-    bool time = false;    ///< --time
-    bool seed = false;    ///< --seed
+    bool config =
+        false;  ///< -c/--config (may repeat, the first to say a thing wins), --print-config
+    bool stream = true;  ///< --strict, --max-record, --follow, --progress; FILE...
+    bool time = false;   ///< --time
+    bool seed = false;   ///< --seed
 };
 
 /// What all tools share: the common options, `tool: file:line: what` messages, the statuses, the

@@ -3,8 +3,8 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/text.hpp"
 
-#include <boost/program_options.hpp>
 #include <fmt/format.h>
+#include <boost/program_options.hpp>
 
 #include <cerrno>
 #include <cstring>
@@ -50,7 +50,8 @@ std::string place(const std::string& name, const std::string& text, const std::s
 
 po::options_description described(const std::vector<ConfigOption>& options) {
     po::options_description all;
-    for (const ConfigOption& o : options) all.add_options()(o.key.c_str(), po::value<std::vector<std::string>>());
+    for (const ConfigOption& o : options)
+        all.add_options()(o.key.c_str(), po::value<std::vector<std::string>>());
     return all;
 }
 
@@ -60,15 +61,16 @@ std::string file_text(const std::string& file) {
     std::string text(max_file_bytes + 1, '\0');
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(in.gcount()));
-    if (in.bad() || (text.empty() && !in.eof())) throw Error(ExitCode::no_input, file + ": cannot be read");
+    if (in.bad() || (text.empty() && !in.eof()))
+        throw Error(ExitCode::no_input, file + ": cannot be read");
     if (text.size() > max_file_bytes) throw ConfigError(file + ": longer than 1 MiB");
     return text;
 }
 
 }  // namespace
 
-std::map<std::string, std::vector<std::string>> parse_config(const std::string& name, const std::string& text,
-                                                             const std::vector<ConfigOption>& options) {
+std::map<std::string, std::vector<std::string>> parse_config(
+    const std::string& name, const std::string& text, const std::vector<ConfigOption>& options) {
     std::map<std::string, std::vector<std::string>> values;
     const po::options_description all = described(options);
     try {
@@ -79,14 +81,16 @@ std::map<std::string, std::vector<std::string>> parse_config(const std::string& 
                 std::vector<std::string> keys;
                 for (const ConfigOption& known : options) keys.push_back(known.key);
                 const std::string near = nearest(o.string_key, keys);
-                throw ConfigError(place(name, text, o.string_key) + "unknown key " + quote(o.string_key) +
+                throw ConfigError(place(name, text, o.string_key) + "unknown key " +
+                                  quote(o.string_key) +
                                   (near.empty() ? "" : " (did you mean '" + near + "'?)"));
             }
             auto& all_values = values[o.string_key];
             all_values.insert(all_values.end(), o.value.begin(), o.value.end());
         }
     } catch (const po::error&) {
-        throw ConfigError(place(name, text, "") + "a line that is neither 'key = value' nor '[section]'");
+        throw ConfigError(place(name, text, "") +
+                          "a line that is neither 'key = value' nor '[section]'");
     }
     for (const ConfigOption& o : options) {
         const auto found = values.find(o.key);
@@ -96,8 +100,8 @@ std::map<std::string, std::vector<std::string>> parse_config(const std::string& 
     return values;
 }
 
-std::map<std::string, std::vector<std::string>> read_config(const std::vector<std::string>& files,
-                                                            const std::vector<ConfigOption>& options) {
+std::map<std::string, std::vector<std::string>> read_config(
+    const std::vector<std::string>& files, const std::vector<ConfigOption>& options) {
     std::map<std::string, std::vector<std::string>> values;
     for (const std::string& file : files) {
         values.merge(parse_config(file, file_text(file), options));  // keeps what is there already
@@ -106,10 +110,12 @@ std::map<std::string, std::vector<std::string>> read_config(const std::vector<st
 }
 
 std::string example_config(const std::string& tool, const std::vector<ConfigOption>& options) {
-    std::string text = fmt::format("# Configuration of {}: the options of its command line, which win over this file.\n", tool);
+    std::string text = fmt::format(
+        "# Configuration of {}: the options of its command line, which win over this file.\n",
+        tool);
     for (const ConfigOption& o : options) {
-        text += fmt::format("\n# {}{}\n#{} = {}\n", o.description, o.repeatable ? " (may stand on several lines)" : "",
-                            o.key, o.value);
+        text += fmt::format("\n# {}{}\n#{} = {}\n", o.description,
+                            o.repeatable ? " (may stand on several lines)" : "", o.key, o.value);
     }
     return text;
 }

@@ -9,9 +9,9 @@ namespace seautils::cli {
 
 /// An option that a configuration file may set.
 struct ConfigOption {
-    std::string key;          ///< its long name without dashes
+    std::string key;  ///< its long name without dashes
     std::string description;
-    std::string value;        ///< its default, or what a value looks like
+    std::string value;  ///< its default, or what a value looks like
     bool repeatable = false;
     bool flag = false;
 };
@@ -25,12 +25,12 @@ struct ConfigOption {
 /// @throws ConfigError  `FILE: what`: an unknown key (proposes the nearest), a line without `=`,
 ///                      more than 1 MiB
 /// @throws Error        no_input: cannot be opened
-std::map<std::string, std::vector<std::string>> read_config(const std::vector<std::string>& files,
-                                                            const std::vector<ConfigOption>& options);
+std::map<std::string, std::vector<std::string>> read_config(
+    const std::vector<std::string>& files, const std::vector<ConfigOption>& options);
 
 /// The same for one text (tests, fuzzing); `name` stands for the file in messages.
-std::map<std::string, std::vector<std::string>> parse_config(const std::string& name, const std::string& text,
-                                                             const std::vector<ConfigOption>& options);
+std::map<std::string, std::vector<std::string>> parse_config(
+    const std::string& name, const std::string& text, const std::vector<ConfigOption>& options);
 
 /// A file with each option, its description, and its default, all in comments.
 std::string example_config(const std::string& tool, const std::vector<ConfigOption>& options);

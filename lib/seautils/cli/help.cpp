@@ -23,7 +23,8 @@ std::string value_name(const CLI::Option& option) {
 std::string names(const CLI::Option& option) {
     std::string text;
     for (const std::string& name : option.get_snames()) text += (text.empty() ? "-" : ", -") + name;
-    for (const std::string& name : option.get_lnames()) text += (text.empty() ? "    --" : ", --") + name;
+    for (const std::string& name : option.get_lnames())
+        text += (text.empty() ? "    --" : ", --") + name;
     const std::string value = value_name(option);
     return value.empty() ? text : text + " " + value;
 }
@@ -52,8 +53,10 @@ std::string wrapped(const std::string& text, std::size_t margin) {
 
 std::string option_line(const CLI::Option& option) {
     std::string line = "  " + names(option);
-    if (line.size() + 2 > text_column) line += '\n' + std::string(text_column, ' ');
-    else line.resize(text_column, ' ');
+    if (line.size() + 2 > text_column)
+        line += '\n' + std::string(text_column, ' ');
+    else
+        line.resize(text_column, ' ');
     return line + wrapped(option.get_description(), text_column) + '\n';
 }
 
@@ -66,7 +69,9 @@ std::string lower_first(std::string text) {
     return text;
 }
 
-bool is_positional(const CLI::Option& option) { return option.get_snames().empty() && option.get_lnames().empty(); }
+bool is_positional(const CLI::Option& option) {
+    return option.get_snames().empty() && option.get_lnames().empty();
+}
 
 }  // namespace
 
@@ -74,11 +79,14 @@ std::string help_text(const CLI::App& app, const std::string& examples) {
     std::string files;
     std::string options;
     for (const CLI::Option* option : app.get_options()) {
-        if (is_positional(*option)) files += " [" + option->get_name() + "]...";
-        else options += option_line(*option);
+        if (is_positional(*option))
+            files += " [" + option->get_name() + "]...";
+        else
+            options += option_line(*option);
     }
-    return app.get_description() + "\n\nUsage: " + app.get_name() + " [OPTION]..." + files + "\n\nOptions:\n" + options +
-           "\nExamples:\n" + examples + "\nThe manual: man " + app.get_name() + "\n";
+    return app.get_description() + "\n\nUsage: " + app.get_name() + " [OPTION]..." + files +
+           "\n\nOptions:\n" + options + "\nExamples:\n" + examples + "\nThe manual: man " +
+           app.get_name() + "\n";
 }
 
 std::string parse_fault(const CLI::App& app, const CLI::ParseError& error) {
@@ -91,7 +99,8 @@ std::string parse_fault(const CLI::App& app, const CLI::ParseError& error) {
             for (const std::string& l : option->get_lnames()) known.push_back("--" + l);
         }
         const std::string near = name.starts_with("--") ? nearest(name, known) : std::string();
-        return "unknown option " + name + (near.empty() ? " (try --help)" : " (did you mean " + near + "?)");
+        return "unknown option " + name +
+               (near.empty() ? " (try --help)" : " (did you mean " + near + "?)");
     }
     if (!app.remaining().empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         return "argument " + quote(app.remaining().front()) + " is one too many (try --help)";

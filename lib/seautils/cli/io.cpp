@@ -39,7 +39,8 @@ int Io::Impl::open_descriptor(const std::string& file) {
     if (file == "-") {
         name = "<stdin>";
         struct stat status {};
-        if (::fstat(STDIN_FILENO, &status) != 0) throw Error(ExitCode::no_input, "<stdin>: " + std::string(std::strerror(errno)));
+        if (::fstat(STDIN_FILENO, &status) != 0)
+            throw Error(ExitCode::no_input, "<stdin>: " + std::string(std::strerror(errno)));
         return STDIN_FILENO;
     }
     name = file;
@@ -89,12 +90,15 @@ bool Io::Impl::next(Framing framing, std::string_view& record) {
     for (;;) {
         const Got got = framing == Framing::lines ? input->line(record) : input->record(record);
         if (got != Got::too_long) return got == Got::record;
-        refuse(place(framing), fmt::format("longer than {} bytes (--max-record)", settings.max_record));
+        refuse(place(framing),
+               fmt::format("longer than {} bytes (--max-record)", settings.max_record));
     }
 }
 
 Io::Io(Settings settings, stream::Output& output, const Messages& reporter)
-    : Settings(std::move(settings)), out(output), impl_(new Impl{reporter, *this, output, {}, 0, {}, {}}) {}
+    : Settings(std::move(settings)),
+      out(output),
+      impl_(new Impl{reporter, *this, output, {}, 0, {}, {}}) {}
 
 Io::~Io() = default;
 
@@ -116,8 +120,10 @@ void Io::for_each(Framing framing, const std::function<void(std::string_view rec
         } catch (const DataError&) {
             throw;
         } catch (const Error& e) {
-            const bool framed = framing == Framing::delimited && e.code() == ExitCode::data && !strict;
-            const bool read = e.code() == ExitCode::io && std::string_view(e.what()).starts_with("read failed");
+            const bool framed =
+                framing == Framing::delimited && e.code() == ExitCode::data && !strict;
+            const bool read =
+                e.code() == ExitCode::io && std::string_view(e.what()).starts_with("read failed");
             if (framed) throw Error(e.code(), impl_->place(framing) + e.what());
             if (read) throw Error(e.code(), impl_->name + ": " + e.what());
             throw;
@@ -133,7 +139,8 @@ void Io::for_each_block(const Block& block) {
             const std::string_view bytes = impl_->input->block(ended);
             const std::size_t used = block(bytes, impl_->input->offset(), ended);
             if (used == 0 && impl_->input->full()) {
-                stop_at(impl_->input->offset(), fmt::format("no message in {} bytes (--max-record)", max_record));
+                stop_at(impl_->input->offset(),
+                        fmt::format("no message in {} bytes (--max-record)", max_record));
             }
             impl_->input->consume(used);
             impl_->follow_progress();

@@ -61,7 +61,8 @@ public:
     /// the file, and whether the input has ended; it returns how many it consumed, and the rest
     /// comes again with more behind it. Ends with status 65 when `block` consumes nothing of
     /// max_record bytes.
-    using Block = std::function<std::size_t(std::string_view bytes, std::uint64_t offset, bool ended)>;
+    using Block =
+        std::function<std::size_t(std::string_view bytes, std::uint64_t offset, bool ended)>;
     void for_each_block(const Block& block);
 
     /// Reports what is wrong at a byte of the unframed input, counts it, and obeys --strict.

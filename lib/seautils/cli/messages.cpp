@@ -30,15 +30,18 @@ std::string one_line(const std::string& text) {
     std::string out;
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7f) out += fmt::format("\\x{:02x}", byte);
-        else out += c;
+        if (byte < 0x20 || byte == 0x7f)
+            out += fmt::format("\\x{:02x}", byte);
+        else
+            out += c;
     }
     return out;
 }
 
 }  // namespace
 
-Messages::Messages(std::string tool) : tool_(std::move(tool)), journal_(is_journal()), color_(wants_color()) {}
+Messages::Messages(std::string tool)
+    : tool_(std::move(tool)), journal_(is_journal()), color_(wants_color()) {}
 
 void Messages::set_color(const std::string& when) {
     if (when != "auto") color_ = when == "always";

@@ -8,17 +8,17 @@ namespace seautils {
 
 /// Exit statuses, the same in every tool (seautils(7)); 64 and up are those of sysexits.h.
 enum class ExitCode : int {
-    ok = 0,             ///< every record used
-    some_refused = 1,   ///< reached the end, some records were refused
-    usage = 64,         ///< the command line is wrong
-    data = 65,          ///< the data are wrong, and reading stopped there
-    no_input = 66,      ///< an input cannot be opened
-    unavailable = 69,   ///< a device is not there
-    internal = 70,      ///< a fault of seautils itself
-    cannot_create = 73, ///< an output cannot be created
-    io = 74,            ///< a read or a write failed
-    try_again = 75,     ///< timed out, try again
-    config = 78,        ///< a configuration file or a schema is wrong
+    ok = 0,              ///< every record used
+    some_refused = 1,    ///< reached the end, some records were refused
+    usage = 64,          ///< the command line is wrong
+    data = 65,           ///< the data are wrong, and reading stopped there
+    no_input = 66,       ///< an input cannot be opened
+    unavailable = 69,    ///< a device is not there
+    internal = 70,       ///< a fault of seautils itself
+    cannot_create = 73,  ///< an output cannot be created
+    io = 74,             ///< a read or a write failed
+    try_again = 75,      ///< timed out, try again
+    config = 78,         ///< a configuration file or a schema is wrong
 };
 
 /// An error with the status that it ends the program with.

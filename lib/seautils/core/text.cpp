@@ -37,7 +37,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
         row[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const std::size_t above = row[j];
-            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+            row[j] =
+                std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
             diagonal = above;
         }
     }
@@ -120,7 +121,8 @@ void append_base64(std::string& out, std::string_view bytes) {
 std::string from_base64(std::string_view text) {
     const std::size_t given = text.size();
     std::string_view digits = text;
-    while (!digits.empty() && digits.back() == '=' && given - digits.size() < 2) digits.remove_suffix(1);
+    while (!digits.empty() && digits.back() == '=' && given - digits.size() < 2)
+        digits.remove_suffix(1);
     const bool padded = digits.size() != given;
     if ((padded && given % 4 != 0) || digits.size() % 4 == 1) {
         throw DataError(fmt::format("base64 of {} characters is cut short", given));
@@ -131,7 +133,8 @@ std::string from_base64(std::string_view text) {
     for (std::size_t k = 0; k < digits.size(); ++k) {
         const std::uint8_t value = digit_values[static_cast<unsigned char>(digits[k])];
         if (value == 64) {
-            throw DataError(fmt::format("{} in column {} is no base64 digit", quote(digits.substr(k, 1)), k + 1));
+            throw DataError(fmt::format("{} in column {} is no base64 digit",
+                                        quote(digits.substr(k, 1)), k + 1));
         }
         word = word << 6 | value;
         if (k % 4 != 0) bytes += static_cast<char>(word >> (6 - 2 * (k % 4)) & 0xff);

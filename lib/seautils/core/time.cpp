@@ -32,7 +32,8 @@ struct Scanner {
     std::int64_t number(int least, int most) {
         std::int64_t x = 0;
         int count = 0;
-        for (; count < most && digit(); ++count, rest.remove_prefix(1)) x = x * 10 + (rest.front() - '0');
+        for (; count < most && digit(); ++count, rest.remove_prefix(1))
+            x = x * 10 + (rest.front() - '0');
         good = good && count >= least;
         return x;
     }
@@ -103,12 +104,15 @@ std::string format_utc(std::int64_t time_us) {
     const auto day = chr::floor<chr::days>(time);
     const chr::year_month_day date{day};
     const chr::hh_mm_ss<chr::microseconds> clock{time - day};
-    std::string text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
-                                   static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                                   clock.hours().count(), clock.minutes().count(), clock.seconds().count());
+    std::string text =
+        fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
+                    static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                    clock.hours().count(), clock.minutes().count(), clock.seconds().count());
     const auto fraction = clock.subseconds().count();
-    if (fraction % 1000 != 0) text += fmt::format(".{:06}", fraction);
-    else if (fraction != 0) text += fmt::format(".{:03}", fraction / 1000);
+    if (fraction % 1000 != 0)
+        text += fmt::format(".{:06}", fraction);
+    else if (fraction != 0)
+        text += fmt::format(".{:03}", fraction / 1000);
     return text + "Z";
 }
 

@@ -10,20 +10,22 @@ namespace seautils::dccl {
 /// The field codecs of the Compact Control Language, which came before DCCL. "Toward zero" is said
 /// of the last step of encoding; a code that does not fit loses its upper bits, as the CCL's does.
 ///
-/// | codec            | code | value → code, toward zero                   | code → value |
-/// |---|---|---|---|
-/// | latloncompressed | 24 bits, signed | degrees · 8388607 / 180, rounded | degrees |
-/// | fix_age          | 8    | s / 4                                       | multiple of 4 s |
-/// | time_date        | 24   | by itself, below                            | |
-/// | heading          | 8    | degrees · 255 / 360 + 0.5                   | degrees, to 360 |
-/// | depth            | given, 13 at least | m in steps of 0.1 to 100 m, 0.2 to 200, 0.5 to 1000, 1
-/// to 6000 | m | | velocity         | 8, signed | m/s · 25 + 0.5                         | m/s | |
-/// speed            | 8, signed | m/s · 30, or the number, rounded, ±127 | m/s, or 20 times the
-/// number | | watts            | 8    | W / 4, 0 to 255                             | multiple of 4
-/// W | | hires_altitude   | 16   | m · 100 (in binary32), 0 to 65535           | m | | salinity | 8
-/// | (S − 20) · 10, to 255; 0 below 20           | 0, or from 20.1 | | temperature      | 8    |
-/// (°C + 4) · 6.4 + 0.5, 0 to 255              | °C | | sound_speed      | 8    | (m/s − 1425) · 2
-/// | m/s | | gfi_pitch_oil    | 16   | by itself, below                            | |
+/// | codec            | bits      | value to code, toward zero                  | code to value |
+/// |------------------|-----------|---------------------------------------------|---------------|
+/// | latloncompressed | 24 signed | degrees * 8388607 / 180, rounded            | degrees |
+/// | fix_age          | 8         | s / 4                                       | multiple of 4 s |
+/// | time_date        | 24        | by itself, below                            | |
+/// | heading          | 8         | degrees * 255 / 360 + 0.5                   | degrees, to 360 |
+/// | depth            | 13 and up | steps of 0.1 m to 100, 0.2 to 200,          | m |
+/// |                  |           | 0.5 to 1000, 1 to 6000                      | |
+/// | velocity         | 8 signed  | m/s * 25 + 0.5                              | m/s |
+/// | speed            | 8 signed  | m/s * 30, or the number, rounded, +-127     | m/s, or 20 times the number |
+/// | watts            | 8         | W / 4, 0 to 255                             | multiple of 4 W |
+/// | hires_altitude   | 16        | m * 100 (in binary32), 0 to 65535           | m |
+/// | salinity         | 8         | (S - 20) * 10, to 255; 0 below 20           | 0, or from 20.1 |
+/// | temperature      | 8         | (C + 4) * 6.4 + 0.5, 0 to 255               | degrees Celsius |
+/// | sound_speed      | 8         | (m/s - 1425) * 2                            | m/s |
+/// | gfi_pitch_oil    | 16        | by itself, below                            | |
 enum class CclCodec : std::uint8_t {
     latloncompressed,
     fix_age,

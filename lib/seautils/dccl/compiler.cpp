@@ -210,8 +210,8 @@ void Compiler::add_lost(const schema::Field& f, std::uint32_t index, std::vector
 namespace {
 
 bool is_plain(const Op& op) {
-    const bool own_way = op.kind == OpKind::arithmetic || op.kind == OpKind::fixed_value ||
-                         op.kind == OpKind::hash;
+    const bool own_way =
+        op.kind == OpKind::arithmetic || op.kind == OpKind::fixed_value || op.kind == OpKind::hash;
     return !own_way && !op.repeated && !op.in_oneof && op.condition < 0;
 }
 

@@ -347,7 +347,8 @@ void Decoder::arithmetic(const Op& op, const Frame& frame) {
 namespace {
 
 /// Sets the message's number of that name, if it has one.
-void set_field(const schema::Layout& layout, schema::Values& values, std::uint32_t block, const char* name, double x) {
+void set_field(const schema::Layout& layout, schema::Values& values, std::uint32_t block,
+               const char* name, double x) {
     const std::int32_t index = layout.find(name);
     if (index < 0 || layout.fields[static_cast<std::size_t>(index)].repeated) return;
     Slot& slot = values[block + static_cast<std::uint32_t>(index)];

@@ -384,7 +384,8 @@ void Encoder::arithmetic(const Op& op, const Frame& frame) {
 namespace {
 
 /// The value of the message's field of that name, or 0.
-float number_of(const schema::Layout& layout, const schema::Values& values, std::uint32_t block, const char* name) {
+float number_of(const schema::Layout& layout, const schema::Values& values, std::uint32_t block,
+                const char* name) {
     const std::int32_t index = layout.find(name);
     if (index < 0) return 0;
     const schema::Field& f = layout.fields[static_cast<std::size_t>(index)];
@@ -401,7 +402,8 @@ void Encoder::ccl(const Op& op, const Slot& slot) {
     if (by_message) {
         const auto block = static_cast<std::uint32_t>(slot.u);
         const schema::Layout& layout = *op.field->message;
-        const GfiPitchOil value{number_of(layout, values_, block, "gfi"), number_of(layout, values_, block, "pitch"),
+        const GfiPitchOil value{number_of(layout, values_, block, "gfi"),
+                                number_of(layout, values_, block, "pitch"),
                                 number_of(layout, values_, block, "oil")};
         return writer_.put(ccl_encode_gfi_pitch_oil(value), 16);
     }
@@ -417,8 +419,8 @@ void Encoder::ccl(const Op& op, const Slot& slot) {
                              ? std::nullopt
                              : ccl_out_of_range(op.ccl, x, op.max_length, metres_per_second);
     if (outside) {
-        throw FieldError{"", fmt::format("{} is outside {} to {}{}", shown(op, slot, values_), outside->min,
-                                         outside->max, with_unit(op))};
+        throw FieldError{"", fmt::format("{} is outside {} to {}{}", shown(op, slot, values_),
+                                         outside->min, outside->max, with_unit(op))};
     }
     const std::uint32_t code = ccl_encode(op.ccl, x, op.max_length, metres_per_second);
     if (op.ccl == CclCodec::fix_age) {

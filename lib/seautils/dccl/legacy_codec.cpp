@@ -28,7 +28,8 @@ public:
         for (unsigned k = bits; k > 0; --k) {
             if (bits_ % 8 == 0) bytes_ += '\0';
             const auto bit = static_cast<unsigned>(value >> (k - 1)) & 1U;
-            bytes_.back() = static_cast<char>(static_cast<unsigned char>(bytes_.back()) | bit << (7 - bits_ % 8));
+            bytes_.back() = static_cast<char>(static_cast<unsigned char>(bytes_.back()) |
+                                              bit << (7 - bits_ % 8));
             ++bits_;
         }
     }
@@ -46,7 +47,8 @@ public:
     std::uint64_t get(unsigned bits) {
         std::uint64_t value = 0;
         for (unsigned k = 0; k < bits; ++k, ++at_) {
-            const unsigned byte = at_ / 8 < bytes_.size() ? static_cast<unsigned char>(bytes_[at_ / 8]) : 0U;
+            const unsigned byte =
+                at_ / 8 < bytes_.size() ? static_cast<unsigned char>(bytes_[at_ / 8]) : 0U;
             value = value << 1 | (byte >> (7 - at_ % 8) & 1U);
         }
         return value;
@@ -92,21 +94,25 @@ private:
 
 std::uint32_t LegacyEncoder::header_number(LegacyHeader part, std::uint32_t most) const {
     const Slot& slot = values_[part];
-    if (!slot.present || slot.u <= most) return slot.present ? static_cast<std::uint32_t>(slot.u) : 0;
-    throw FieldError{message_.layout().fields[part].name, fmt::format("{} is outside 0 to {}", slot.u, most)};
+    if (!slot.present || slot.u <= most)
+        return slot.present ? static_cast<std::uint32_t>(slot.u) : 0;
+    throw FieldError{message_.layout().fields[part].name,
+                     fmt::format("{} is outside 0 to {}", slot.u, most)};
 }
 
 std::string LegacyEncoder::head() {
     const auto same = [&](LegacyHeader part, std::uint32_t value) {
         if (!values_[part].present || values_[part].u == value) return;
-        throw FieldError{message_.layout().fields[part].name, fmt::format("{} is not {}", values_[part].u, value)};
+        throw FieldError{message_.layout().fields[part].name,
+                         fmt::format("{} is not {}", values_[part].u, value)};
     };
     same(header_ccl_id, ccl_id);
     same(header_id, message_.id());
     const Slot& time = values_[header_time];
     const double time_s = time.present ? std::nearbyint(time.d) : static_cast<double>(now_s_);
     if (!(time_s >= 0 && time_s < 1e12)) {
-        throw FieldError{message_.layout().fields[header_time].name, fmt::format("{} is no time since 1970", time.d)};
+        throw FieldError{message_.layout().fields[header_time].name,
+                         fmt::format("{} is no time since 1970", time.d)};
     }
     MsbWriter out;
     out.put(ccl_id, 8);
@@ -141,13 +147,15 @@ void LegacyEncoder::field(const LegacyField& f, const Slot& slot) {
     if (f.kind == LegacyKind::fixed) return check_fixed(f, slot);
     if (f.array_length == 1) return element(f, slot.present ? &slot : nullptr, true);
     const std::uint32_t given = slot.present ? slot.aux : 0;
-    if (given > f.array_length) refused(fmt::format("has {} elements, more than {}", given, f.array_length));
+    if (given > f.array_length)
+        refused(fmt::format("has {} elements, more than {}", given, f.array_length));
     const auto at = [&](std::uint32_t k) -> const Slot* {
         const Slot* one = k < given ? &values_[static_cast<std::uint32_t>(slot.u) + k] : nullptr;
         return one != nullptr && one->present ? one : nullptr;
     };
     // The deltas lean on element 0, which goes last.
-    if (f.max_delta > 0 && at(0) != nullptr && number(f, *at(0), true) != 0) key_ = f.scaled(at(0)->d);
+    if (f.max_delta > 0 && at(0) != nullptr && number(f, *at(0), true) != 0)
+        key_ = f.scaled(at(0)->d);
     for (std::uint32_t k = 1; k <= f.array_length; ++k) {
         const std::uint32_t index = k % f.array_length;
         try {
@@ -176,12 +184,14 @@ std::uint64_t LegacyEncoder::number(const LegacyField& f, const Slot& slot, bool
         if (!key_) return 0;
         const double most = f.bound_scaled(f.max_delta);
         const double delta = x - *key_;
-        if (std::fabs(delta) <= most) return static_cast<std::uint64_t>(std::nearbyint(delta + most)) + 1;
-        return refused(fmt::format("{} is more than {} from element 0, which is {}", slot.d, f.max_delta,
-                                   f.unscaled(*key_)));
+        if (std::fabs(delta) <= most)
+            return static_cast<std::uint64_t>(std::nearbyint(delta + most)) + 1;
+        return refused(fmt::format("{} is more than {} from element 0, which is {}", slot.d,
+                                   f.max_delta, f.unscaled(*key_)));
     }
     const double min = f.bound_scaled(f.min);
-    if (x >= min && x <= f.bound_scaled(f.max)) return static_cast<std::uint64_t>(std::nearbyint(x - min)) + 1;
+    if (x >= min && x <= f.bound_scaled(f.max))
+        return static_cast<std::uint64_t>(std::nearbyint(x - min)) + 1;
     return refused(fmt::format("{} is outside {} to {}", slot.d, f.min, f.max));
 }
 
@@ -190,14 +200,16 @@ std::uint64_t LegacyEncoder::enumeration(const LegacyField& f, const Slot& slot)
     const auto found = std::find(f.values.begin(), f.values.end(), name);
     if (found != f.values.end()) return static_cast<std::uint64_t>(found - f.values.begin()) + 1;
     const std::string near = nearest(name, f.values);
-    return refused(fmt::format("{} is not one of its values{}", quote(name),
-                               near.empty() ? "" : fmt::format(" (did you mean {}?)", quote(near))));
+    return refused(
+        fmt::format("{} is not one of its values{}", quote(name),
+                    near.empty() ? "" : fmt::format(" (did you mean {}?)", quote(near))));
 }
 
 void LegacyEncoder::text(const LegacyField& f, const Slot* slot) {
     std::string_view text = slot != nullptr ? values_.text(*slot) : std::string_view();
     if (text.size() > f.max_length) {
-        refused(fmt::format("{} is {} bytes, more than {}", quote(text), text.size(), f.max_length));
+        refused(
+            fmt::format("{} is {} bytes, more than {}", quote(text), text.size(), f.max_length));
         text = text.substr(0, f.max_length);
     }
     // Zeros are what fills a text up.
@@ -216,18 +228,23 @@ std::optional<unsigned> digit(char c) {
 
 void LegacyEncoder::hex(const LegacyField& f, const Slot* slot) {
     const std::string_view text = slot != nullptr ? values_.text(*slot) : std::string_view();
-    const bool digits = std::all_of(text.begin(), text.end(), [](char c) { return digit(c).has_value(); });
+    const bool digits =
+        std::all_of(text.begin(), text.end(), [](char c) { return digit(c).has_value(); });
     const bool good = digits && text.size() == 2 * std::size_t{f.max_length};
     if (slot != nullptr && !good) {
-        throw FieldError{{}, fmt::format("{} is not {} hexadecimal digits", quote(text), 2 * f.max_length)};
+        throw FieldError{
+            {}, fmt::format("{} is not {} hexadecimal digits", quote(text), 2 * f.max_length)};
     }
-    if (slot != nullptr && text.find_first_not_of('0') == text.npos) refused("of zeros alone comes back as not given");
-    for (std::size_t k = 0; k < 2 * std::size_t{f.max_length}; ++k) out_.put(slot != nullptr ? *digit(text[k]) : 0U, 4);
+    if (slot != nullptr && text.find_first_not_of('0') == text.npos)
+        refused("of zeros alone comes back as not given");
+    for (std::size_t k = 0; k < 2 * std::size_t{f.max_length}; ++k)
+        out_.put(slot != nullptr ? *digit(text[k]) : 0U, 4);
 }
 
 void LegacyEncoder::check_fixed(const LegacyField& f, const Slot& slot) const {
     if (!slot.present || values_.text(slot) == f.values.front()) return;
-    refused(fmt::format("{} is not the fixed value {}", quote(values_.text(slot)), quote(f.values.front())));
+    refused(fmt::format("{} is not the fixed value {}", quote(values_.text(slot)),
+                        quote(f.values.front())));
 }
 
 // ----- from the wire
@@ -292,7 +309,8 @@ void LegacyDecoder::head(std::string_view bytes) {
 
 void LegacyDecoder::body(std::string_view bytes) {
     const std::uint64_t most = (message_.body_bits() + 7) / 8;
-    if (bytes.size() > most) refused(fmt::format("has a body of {} bytes, more than {}", bytes.size(), most));
+    if (bytes.size() > most)
+        refused(fmt::format("has a body of {} bytes, more than {}", bytes.size(), most));
     MsbReader in(bytes);
     if (in.get(static_cast<unsigned>((8 - message_.body_bits() % 8) % 8)) != 0) {
         refused("has bits where its body is filled up with zeros");
@@ -345,22 +363,28 @@ void LegacyDecoder::element(const LegacyField& f, std::uint32_t slot, MsbReader&
     if (read != 0) code(f, slot, read, is_key);
 }
 
-void LegacyDecoder::code(const LegacyField& f, std::uint32_t slot, std::uint64_t code, bool is_key) {
+void LegacyDecoder::code(const LegacyField& f, std::uint32_t slot, std::uint64_t code,
+                         bool is_key) {
     const bool is_delta = f.max_delta > 0 && !is_key;
     double codes = static_cast<double>(f.values.size());
     if (f.kind == LegacyKind::boolean) codes = 2;
     if (f.kind == LegacyKind::number) {
         codes = std::nearbyint(is_delta ? 2 * f.bound_scaled(f.max_delta)
-                                        : f.bound_scaled(f.max) - f.bound_scaled(f.min)) + 1;
+                                        : f.bound_scaled(f.max) - f.bound_scaled(f.min)) +
+                1;
     }
     const std::uint64_t position = code - 1;
-    if (static_cast<double>(position) >= codes) return refused(fmt::format("code {} stands for nothing", code));
+    if (static_cast<double>(position) >= codes)
+        return refused(fmt::format("code {} stands for nothing", code));
     if (f.kind == LegacyKind::enumeration) return values_.set_text(slot, f.values[position]);
     Slot& s = values_[slot];
     s.present = true;
-    if (f.kind == LegacyKind::boolean) s.u = position;
-    else if (is_delta) s.d = static_cast<double>(position) - f.bound_scaled(f.max_delta);
-    else s.d = f.unscaled(std::nearbyint(static_cast<double>(position) + f.bound_scaled(f.min)));
+    if (f.kind == LegacyKind::boolean)
+        s.u = position;
+    else if (is_delta)
+        s.d = static_cast<double>(position) - f.bound_scaled(f.max_delta);
+    else
+        s.d = f.unscaled(std::nearbyint(static_cast<double>(position) + f.bound_scaled(f.min)));
 }
 
 void LegacyDecoder::text(const LegacyField& f, std::uint32_t slot, MsbReader& in) {
@@ -380,11 +404,13 @@ void LegacyDecoder::text(const LegacyField& f, std::uint32_t slot, MsbReader& in
 
 std::int32_t legacy_id(std::string_view bytes) {
     if (bytes.size() < header_bytes) {
-        throw Truncated(fmt::format("the header takes {} bytes where {} are left", header_bytes, bytes.size()));
+        throw Truncated(
+            fmt::format("the header takes {} bytes where {} are left", header_bytes, bytes.size()));
     }
     MsbReader in(bytes);
     const std::uint64_t ccl = in.get(8);
-    if (ccl != ccl_id) throw DataError(fmt::format("the CCL identifier is 0x{:02x}, not 0x{:02x}", ccl, ccl_id));
+    if (ccl != ccl_id)
+        throw DataError(fmt::format("the CCL identifier is 0x{:02x}, not 0x{:02x}", ccl, ccl_id));
     return static_cast<std::int32_t>(in.get(9));
 }
 
@@ -410,7 +436,8 @@ std::size_t decode(const LegacyMessage& message, std::string_view bytes,
     }
     values.reset(message.layout());
     std::string body(bytes.substr(header_bytes));
-    if (options.cipher != nullptr) options.cipher->apply(bytes.substr(0, header_bytes), body.data(), body.size());
+    if (options.cipher != nullptr)
+        options.cipher->apply(bytes.substr(0, header_bytes), body.data(), body.size());
     try {
         LegacyDecoder decoder(message, options, values);
         decoder.head(bytes);

@@ -26,7 +26,7 @@ constexpr std::uint32_t max_message_bytes = 65536;
 constexpr std::size_t max_fields = 10'000;
 constexpr std::uint64_t header_bytes = 6;
 
-constexpr std::array<double, 13> tens = {1,   1e1, 1e2, 1e3, 1e4,  1e5, 1e6,
+constexpr std::array<double, 13> tens = {1,   1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
                                          1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
 
 /// What every decimal number of a schema is after scaling: whole, but for the last bits.
@@ -96,8 +96,10 @@ private:
 };
 
 std::size_t LegacyLoader::line(std::ptrdiff_t offset) const {
-    const auto end = std::min<std::size_t>(static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)), xml_.size());
-    return 1 + static_cast<std::size_t>(std::count(xml_.begin(), xml_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+    const auto end = std::min<std::size_t>(
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)), xml_.size());
+    return 1 + static_cast<std::size_t>(
+                   std::count(xml_.begin(), xml_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
 }
 
 void LegacyLoader::refuse(const Node& node, const std::string& what) const {
@@ -140,7 +142,8 @@ std::uint32_t LegacyLoader::whole(const Node& node, const char* tag, std::uint32
 void LegacyLoader::ignore(const Node& node) {
     if (node.type() != pugi::node_element) return;
     auto& tags = schema_.ignored_tags;
-    if (std::find(tags.begin(), tags.end(), node.name()) == tags.end()) tags.emplace_back(node.name());
+    if (std::find(tags.begin(), tags.end(), node.name()) == tags.end())
+        tags.emplace_back(node.name());
 }
 
 void LegacyLoader::file(const std::string& name, std::string_view xml) {
@@ -155,8 +158,10 @@ void LegacyLoader::file(const std::string& name, std::string_view xml) {
     const Node root = document.child("message_set");
     if (!root) throw ConfigError(name + ":1: the root is not <message_set>");
     for (const Node& node : root.children()) {
-        if (std::string_view(node.name()) == "message") message(node);
-        else ignore(node);
+        if (std::string_view(node.name()) == "message")
+            message(node);
+        else
+            ignore(node);
     }
 }
 
@@ -170,18 +175,16 @@ schema::Field part(const char* name, schema::Kind kind) {
 
 void LegacyLoader::header(const Node& node, schema::Layout& layout) {
     using schema::Kind;
-    layout.fields = {part("_time", Kind::float64),
-                     part("_src_id", Kind::uint32),
-                     part("_dest_id", Kind::uint32),
-                     part("_multimessage_flag", Kind::boolean),
-                     part("_broadcast_flag", Kind::boolean),
-                     part("_unused", Kind::uint32),
-                     part("_ccl_id", Kind::uint32),
-                     part("_id", Kind::uint32)};
+    layout.fields = {
+        part("_time", Kind::float64),           part("_src_id", Kind::uint32),
+        part("_dest_id", Kind::uint32),         part("_multimessage_flag", Kind::boolean),
+        part("_broadcast_flag", Kind::boolean), part("_unused", Kind::uint32),
+        part("_ccl_id", Kind::uint32),          part("_id", Kind::uint32)};
     for (const Node& child : node.child("header").children()) {
         const std::string tag = child.name();
-        const auto found = std::find_if(layout.fields.begin(), layout.fields.end(),
-                                        [&](const schema::Field& f) { return f.json_name == "_" + tag; });
+        const auto found =
+            std::find_if(layout.fields.begin(), layout.fields.end(),
+                         [&](const schema::Field& f) { return f.json_name == "_" + tag; });
         if (found == layout.fields.end()) {
             ignore(child);
             continue;
@@ -194,11 +197,11 @@ void LegacyLoader::header(const Node& node, schema::Layout& layout) {
     for (schema::Field& f : layout.fields) f.json_name = f.name;
 }
 
-constexpr std::array<const char*, 7> field_tags = {"bool", "int",  "float", "string",
+constexpr std::array<const char*, 7> field_tags = {"bool", "int", "float", "string",
                                                    "enum", "hex", "static"};
-constexpr std::array<const char*, 9> meant_tags = {"name",         "max",        "min",
-                                                   "precision",    "max_delta",  "array_length",
-                                                   "max_length",   "num_bytes",  "value"};
+constexpr std::array<const char*, 9> meant_tags = {"name",       "max",       "min",
+                                                   "precision",  "max_delta", "array_length",
+                                                   "max_length", "num_bytes", "value"};
 
 void LegacyLoader::number(const Node& node, LegacyField& f) {
     f.kind = LegacyKind::number;
@@ -208,7 +211,8 @@ void LegacyLoader::number(const Node& node, LegacyField& f) {
     if (std::string_view(node.name()) == "float" && node.child("precision")) {
         const double p = real(node, "precision");
         if (p != std::floor(p) || std::fabs(p) > 12) {
-            refuse(node.child("precision"), fmt::format("<precision> {} is not a whole number from -12 to 12", p));
+            refuse(node.child("precision"),
+                   fmt::format("<precision> {} is not a whole number from -12 to 12", p));
         }
         f.precision = static_cast<int>(p);
     }
@@ -218,18 +222,30 @@ void LegacyLoader::number(const Node& node, LegacyField& f) {
 void LegacyLoader::widths(const Node& node, LegacyField& f) {
     const auto width = [&](double range) {
         // Beyond 2^53 a double cannot tell a field's values apart.
-        if (range > 0x1p53 - 2) refuse(node, fmt::format("field {} has more than 2^53 values", quote(f.name)));
+        if (range > 0x1p53 - 2)
+            refuse(node, fmt::format("field {} has more than 2^53 values", quote(f.name)));
         return bits_for(range + 2);
     };
     switch (f.kind) {
-        case LegacyKind::boolean: f.width = 2; break;
-        case LegacyKind::number: f.width = width(snapped(times_ten(f.max - f.min, f.precision))); break;
-        case LegacyKind::enumeration: f.width = bits_for(static_cast<double>(f.values.size()) + 1); break;
+        case LegacyKind::boolean:
+            f.width = 2;
+            break;
+        case LegacyKind::number:
+            f.width = width(snapped(times_ten(f.max - f.min, f.precision)));
+            break;
+        case LegacyKind::enumeration:
+            f.width = bits_for(static_cast<double>(f.values.size()) + 1);
+            break;
         case LegacyKind::string:
-        case LegacyKind::hex: f.width = 8 * f.max_length; break;
-        case LegacyKind::fixed: f.width = 0; break;
+        case LegacyKind::hex:
+            f.width = 8 * f.max_length;
+            break;
+        case LegacyKind::fixed:
+            f.width = 0;
+            break;
     }
-    f.delta_width = f.max_delta > 0 ? width(snapped(times_ten(2 * f.max_delta, f.precision))) : f.width;
+    f.delta_width =
+        f.max_delta > 0 ? width(snapped(times_ten(2 * f.max_delta, f.precision))) : f.width;
 }
 
 LegacyField LegacyLoader::field(const Node& node) {
@@ -251,8 +267,10 @@ LegacyField LegacyLoader::field(const Node& node) {
         required(node, "value");
         for (const Node& value : node.children("value")) f.values.emplace_back(value.text().get());
         const std::set<std::string> different(f.values.begin(), f.values.end());
-        if (different.size() != f.values.size()) refuse(node, fmt::format("field {} has a <value> twice", quote(f.name)));
-        if (tag == "static" && f.values.size() > 1) refuse(node, fmt::format("field {} has more than one <value>", quote(f.name)));
+        if (different.size() != f.values.size())
+            refuse(node, fmt::format("field {} has a <value> twice", quote(f.name)));
+        if (tag == "static" && f.values.size() > 1)
+            refuse(node, fmt::format("field {} has more than one <value>", quote(f.name)));
     }
     if (node.child("array_length") && f.kind != LegacyKind::fixed) {
         f.array_length = whole(node, "array_length", 1, max_message_bytes);
@@ -269,7 +287,9 @@ void LegacyLoader::repeat(const Node& node, LegacyMessage& m) {
     std::uint64_t first = 0;
     std::uint64_t more = 0;
     for (const LegacyField& f : m.fields_) {
-        if (f.array_length > 1) refuse(node, fmt::format("field {} is an array in a message that repeats", quote(f.name)));
+        if (f.array_length > 1)
+            refuse(node,
+                   fmt::format("field {} is an array in a message that repeats", quote(f.name)));
         first += f.width;
         more += f.delta_width;
     }
@@ -305,7 +325,8 @@ void LegacyLoader::finish(const Node& node, LegacyMessage& m, schema::Layout lay
     std::set<std::string> names;
     for (schema::Field& f : layout.fields) {
         if (!names.insert(f.name).second) {
-            refuse(node, fmt::format("message {} has two fields named {}", quote(m.name_), quote(f.name)));
+            refuse(node, fmt::format("message {} has two fields named {}", quote(m.name_),
+                                     quote(f.name)));
         }
         f.number = static_cast<std::int32_t>(names.size());
     }
@@ -315,9 +336,11 @@ void LegacyLoader::finish(const Node& node, LegacyMessage& m, schema::Layout lay
 
 void LegacyLoader::unique(const Node& node, const LegacyMessage& m) {
     for (const LegacyMessage& other : schema_.messages) {
-        if (other.name_ == m.name_) refuse(node, fmt::format("message {} is defined twice", quote(m.name_)));
+        if (other.name_ == m.name_)
+            refuse(node, fmt::format("message {} is defined twice", quote(m.name_)));
         if (other.id_ == m.id_) {
-            refuse(node, fmt::format("id {} is both message {} and message {}", m.id_, other.name_, m.name_));
+            refuse(node, fmt::format("id {} is both message {} and message {}", m.id_, other.name_,
+                                     m.name_));
         }
     }
 }
@@ -336,10 +359,14 @@ void LegacyLoader::message(const Node& node) {
         if (child.type() != pugi::node_element) continue;
         const auto is_tag = [&](const char* tag) { return std::strcmp(tag, child.name()) == 0; };
         if (std::none_of(field_tags.begin(), field_tags.end(), is_tag)) {
-            refuse(child, fmt::format("field type <{}> is none of bool, int, float, string, enum, hex, static", child.name()));
+            refuse(child,
+                   fmt::format(
+                       "field type <{}> is none of bool, int, float, string, enum, hex, static",
+                       child.name()));
         }
         m.fields_.push_back(field(child));
-        if (m.fields_.size() > max_fields) refuse(child, fmt::format("more than {} fields", max_fields));
+        if (m.fields_.size() > max_fields)
+            refuse(child, fmt::format("more than {} fields", max_fields));
     }
     if (node.child("repeat")) repeat(node, m);
     for (const Node& child : node.children()) {

@@ -17,9 +17,9 @@ enum class LegacyKind : std::uint8_t { boolean, number, string, enumeration, hex
 struct LegacyField {
     std::string name;
     LegacyKind kind = LegacyKind::number;
-    double min = 0, max = 0;   ///< numbers, inclusive
-    int precision = 0;         ///< decimals, -12 to 12; negative: tens, hundreds, …
-    double max_delta = 0;      ///< 0: the elements of an array are coded one by one
+    double min = 0, max = 0;  ///< numbers, inclusive
+    int precision = 0;        ///< decimals, -12 to 12; negative: tens, hundreds, …
+    double max_delta = 0;     ///< 0: the elements of an array are coded one by one
     std::uint32_t array_length = 1;
     std::uint32_t max_length = 0;     ///< string: characters; hex: bytes
     std::vector<std::string> values;  ///< enumeration: its names; fixed: its only value

@@ -78,7 +78,8 @@ bool count_floats(NumberCode& c) {
     const bool narrow_float = c.kind == Kind::float32;
     const double most = narrow_float ? 524288.0 : 1099511627776.0;
     const double min = narrow_float ? to_float32(c.min) : c.min;
-    const double first = std::floor(c.resolution >= 1 ? min / c.resolution + 0.5 : min * c.inverse + 0.5);
+    const double first =
+        std::floor(c.resolution >= 1 ? min / c.resolution + 0.5 : min * c.inverse + 0.5);
     if (c.width > 40 || !(std::fabs(first) < most && c.max / c.resolution < 2 * most)) return false;
     if (first + std::ldexp(1.0, c.width) >= most) return false;
     c.first_step = static_cast<std::int64_t>(first);

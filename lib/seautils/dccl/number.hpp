@@ -30,8 +30,9 @@ struct NumberCode {
     /// Whole numbers of steps give the very same values and codes as the arithmetic of doubles, and
     /// faster: the doubles' rounding errors are proven smaller than half a step (number.cpp).
     bool counts_steps = false;
-    std::int64_t first_step = 0;              ///< of the value whose code is 0
-    std::int64_t low_step = 0, high_step = 0;  ///< of the least and the greatest value within bounds
+    std::int64_t first_step = 0;  ///< of the value whose code is 0
+    std::int64_t low_step = 0,
+                 high_step = 0;  ///< of the least and the greatest value within bounds
 
     bool is_integer() const {
         return kind != schema::Kind::float32 && kind != schema::Kind::float64;

@@ -51,8 +51,8 @@ struct Op {
     CclCodec ccl = CclCodec::latloncompressed;
     std::uint8_t count_width = 0;   ///< repeated: bits of the count
     std::uint8_t length_width = 0;  ///< text: bits of the length
-    std::uint32_t slot = 0;        ///< the field's index in its message
-    std::uint32_t end = 0;         ///< message: one past its last step
+    std::uint32_t slot = 0;         ///< the field's index in its message
+    std::uint32_t end = 0;          ///< message: one past its last step
     std::uint32_t min_repeat = 0, max_repeat = 1;
     bool counted = true;           ///< repeated: a count is written (version 3 and later)
     std::uint32_t max_length = 0;  ///< text: bytes; ccl: bits
@@ -123,7 +123,7 @@ struct FieldReport {
     std::string unit;
     std::uint32_t max_length = 0;
     OpKind kind = OpKind::lost;
-    NumberCode number;              ///< of numbers, enumerations and times
+    NumberCode number;               ///< of numbers, enumerations and times
     bool has_presence_cost = false;  ///< a code or a bit is spent on "not set"
     bool has_conditions = false;
 };

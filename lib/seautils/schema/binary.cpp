@@ -14,16 +14,28 @@ namespace {
 constexpr int max_depth = 32;
 
 /// Wire types of the binary form.
-enum WireType : unsigned { varint = 0, fixed64 = 1, length = 2, begin_group = 3, end_group = 4, fixed32 = 5 };
+enum WireType : unsigned {
+    varint = 0,
+    fixed64 = 1,
+    length = 2,
+    begin_group = 3,
+    end_group = 4,
+    fixed32 = 5
+};
 
 unsigned wire_type_of(WireForm form) {
     switch (form) {
         case WireForm::varint:
-        case WireForm::zigzag: return varint;
-        case WireForm::fixed32: return fixed32;
-        case WireForm::fixed64: return fixed64;
-        case WireForm::length: return length;
-        case WireForm::group: return begin_group;
+        case WireForm::zigzag:
+            return varint;
+        case WireForm::fixed32:
+            return fixed32;
+        case WireForm::fixed64:
+            return fixed64;
+        case WireForm::length:
+            return length;
+        case WireForm::group:
+            return begin_group;
     }
     return varint;
 }
@@ -31,12 +43,15 @@ unsigned wire_type_of(WireForm form) {
 /// Takes numbers from bytes; knows its place in the whole record.
 class Bytes {
 public:
-    Bytes(std::string_view all, std::size_t begin, std::size_t end) : all_(all), at_(begin), end_(end) {}
+    Bytes(std::string_view all, std::size_t begin, std::size_t end)
+        : all_(all), at_(begin), end_(end) {}
 
     bool done() const { return at_ == end_; }
     std::size_t at() const { return at_; }
 
-    [[noreturn]] void refuse(const char* what) const { throw DataError(fmt::format("byte {}: {}", at_, what)); }
+    [[noreturn]] void refuse(const char* what) const {
+        throw DataError(fmt::format("byte {}: {}", at_, what));
+    }
 
     std::uint64_t get_varint() {
         // nearly all: tags of low fields, lengths, small numbers
@@ -88,7 +103,8 @@ public:
     explicit Reader(Values& values) : values_(values) {}
 
     /// @param group  the number of the group that the message is, or 0
-    void message(Bytes& in, const Layout& layout, std::uint32_t block, int depth, std::uint32_t group) {
+    void message(Bytes& in, const Layout& layout, std::uint32_t block, int depth,
+                 std::uint32_t group) {
         if (depth > max_depth) in.refuse("nested deeper than 32 messages");
         std::uint32_t hint = 0;
         while (!in.done()) {
@@ -97,22 +113,26 @@ public:
             const auto type = static_cast<unsigned>(tag & 7);
             if (tag >> 32 != 0 || number == 0) in.refuse("not a field's tag");
             if (type == end_group) {
-                if (number != group || group == 0) in.refuse("the end of a group that was not begun");
+                if (number != group || group == 0)
+                    in.refuse("the end of a group that was not begun");
                 return;
             }
             const std::int32_t index = layout.find_number(static_cast<std::int32_t>(number), hint);
-            if (index < 0 || !known(in, layout, static_cast<std::uint32_t>(index), block, type, depth)) {
+            if (index < 0 ||
+                !known(in, layout, static_cast<std::uint32_t>(index), block, type, depth)) {
                 skip(in, type, number, depth);
                 continue;
             }
-            hint = static_cast<std::uint32_t>(index) + (layout.fields[static_cast<std::size_t>(index)].repeated ? 0U : 1U);
+            hint = static_cast<std::uint32_t>(index) +
+                   (layout.fields[static_cast<std::size_t>(index)].repeated ? 0U : 1U);
         }
         if (group != 0) in.refuse("the message is cut short");
     }
 
 private:
     /// False: the wire type does not fit, so it counts as unknown.
-    bool known(Bytes& in, const Layout& layout, std::uint32_t index, std::uint32_t block, unsigned type, int depth) {
+    bool known(Bytes& in, const Layout& layout, std::uint32_t index, std::uint32_t block,
+               unsigned type, int depth) {
         const Field& f = layout.fields[index];
         const std::uint32_t slot = block + index;
         const unsigned wanted = wire_type_of(f.wire_form);
@@ -156,7 +176,8 @@ private:
         message(inner, *f.message, block, depth + 1, 0);
     }
 
-    void clear_others(const Layout& layout, const Field& f, std::uint32_t block, std::uint32_t index) {
+    void clear_others(const Layout& layout, const Field& f, std::uint32_t block,
+                      std::uint32_t index) {
         for (const std::uint32_t other : layout.oneofs[static_cast<std::size_t>(f.oneof)].fields) {
             if (other != index) values_[block + other] = Slot();
         }
@@ -169,22 +190,30 @@ private:
     void scalar(Bytes& in, const Field& f, std::uint32_t slot) {
         if (f.wire_form == WireForm::length) {
             const std::string_view text = in.get_bytes(in.get_varint());
-            if (f.kind == Kind::string && !is_valid_utf8(text)) in.refuse("a string that is not UTF-8");
+            if (f.kind == Kind::string && !is_valid_utf8(text))
+                in.refuse("a string that is not UTF-8");
             return values_.set_text(slot, text);
         }
         Slot& s = values_[slot];
-        if (f.wire_form == WireForm::fixed64) s.u = in.get_fixed<8>();
-        else if (f.wire_form == WireForm::fixed32) from_32(f, static_cast<std::uint32_t>(in.get_fixed<4>()), s);
-        else from_varint(f, in.get_varint(), s);
+        if (f.wire_form == WireForm::fixed64)
+            s.u = in.get_fixed<8>();
+        else if (f.wire_form == WireForm::fixed32)
+            from_32(f, static_cast<std::uint32_t>(in.get_fixed<4>()), s);
+        else
+            from_varint(f, in.get_varint(), s);
         const bool closed = f.kind == Kind::enumeration && !f.enumeration->open;
-        const bool undeclared = closed && f.enumeration->find(static_cast<std::int32_t>(s.i)) == nullptr;
+        const bool undeclared =
+            closed && f.enumeration->find(static_cast<std::int32_t>(s.i)) == nullptr;
         if (!undeclared) s.present = true;
     }
 
     static void from_32(const Field& f, std::uint32_t bits, Slot& s) {
-        if (f.kind == Kind::float32) s.d = static_cast<double>(std::bit_cast<float>(bits));
-        else if (f.kind == Kind::uint32) s.u = bits;
-        else s.i = static_cast<std::int32_t>(bits);
+        if (f.kind == Kind::float32)
+            s.d = static_cast<double>(std::bit_cast<float>(bits));
+        else if (f.kind == Kind::uint32)
+            s.u = bits;
+        else
+            s.i = static_cast<std::int32_t>(bits);
     }
 
     static void from_varint(const Field& f, std::uint64_t x, Slot& s) {
@@ -193,22 +222,40 @@ private:
             x = (x >> 1) ^ (~(x & 1) + 1);
         }
         switch (f.kind) {
-            case Kind::boolean: s.i = x != 0 ? 1 : 0; return;
+            case Kind::boolean:
+                s.i = x != 0 ? 1 : 0;
+                return;
             case Kind::int32:
-            case Kind::enumeration: s.i = static_cast<std::int32_t>(x); return;
-            case Kind::uint32: s.u = static_cast<std::uint32_t>(x); return;
-            default: s.u = x; return;
+            case Kind::enumeration:
+                s.i = static_cast<std::int32_t>(x);
+                return;
+            case Kind::uint32:
+                s.u = static_cast<std::uint32_t>(x);
+                return;
+            default:
+                s.u = x;
+                return;
         }
     }
 
     void skip(Bytes& in, unsigned type, std::uint32_t number, int depth) {
         switch (type) {
-            case varint: in.get_varint(); return;
-            case fixed64: in.get_fixed<8>(); return;
-            case fixed32: in.get_fixed<4>(); return;
-            case length: in.get_bytes(in.get_varint()); return;
-            case begin_group: break;
-            default: in.refuse("not a wire type");
+            case varint:
+                in.get_varint();
+                return;
+            case fixed64:
+                in.get_fixed<8>();
+                return;
+            case fixed32:
+                in.get_fixed<4>();
+                return;
+            case length:
+                in.get_bytes(in.get_varint());
+                return;
+            case begin_group:
+                break;
+            default:
+                in.refuse("not a wire type");
         }
         if (depth > max_depth) in.refuse("nested deeper than 32 messages");
         for (;;) {
@@ -217,7 +264,8 @@ private:
                 if (tag >> 3 != number) in.refuse("the end of a group that was not begun");
                 return;
             }
-            skip(in, static_cast<unsigned>(tag & 7), static_cast<std::uint32_t>(tag >> 3), depth + 1);
+            skip(in, static_cast<unsigned>(tag & 7), static_cast<std::uint32_t>(tag >> 3),
+                 depth + 1);
         }
     }
 
@@ -287,7 +335,8 @@ public:
             }
             const std::uint32_t count = f.repeated ? slot.aux : 1;
             for (std::uint32_t e = 0; e < count; ++e) {
-                const Slot& one = f.repeated ? values_[static_cast<std::uint32_t>(slot.u) + e] : slot;
+                const Slot& one =
+                    f.repeated ? values_[static_cast<std::uint32_t>(slot.u) + e] : slot;
                 tag(f, wire_type_of(f.wire_form));
                 f.kind == Kind::message ? sub_message(f, one) : scalar(f, one);
             }
@@ -328,14 +377,22 @@ private:
                 out_.varint(s.aux);
                 out_.bytes(values_.text(s));
                 return;
-            case WireForm::fixed64: out_.fixed(s.u, 8); return;
+            case WireForm::fixed64:
+                out_.fixed(s.u, 8);
+                return;
             case WireForm::fixed32:
-                out_.fixed(f.kind == Kind::float32 ? std::bit_cast<std::uint32_t>(static_cast<float>(s.d)) : s.u, 4);
+                out_.fixed(f.kind == Kind::float32
+                               ? std::bit_cast<std::uint32_t>(static_cast<float>(s.d))
+                               : s.u,
+                           4);
                 return;
             case WireForm::zigzag:
-                out_.varint(static_cast<std::uint64_t>(s.i) << 1 ^ static_cast<std::uint64_t>(s.i >> 63));
+                out_.varint(static_cast<std::uint64_t>(s.i) << 1 ^
+                            static_cast<std::uint64_t>(s.i >> 63));
                 return;
-            default: out_.varint(s.u); return;
+            default:
+                out_.varint(s.u);
+                return;
         }
     }
 
@@ -351,6 +408,8 @@ void read_binary(std::string_view bytes, const Layout& layout, Values& values) {
     Reader(values).message(in, layout, 0, 1, 0);
 }
 
-void write_binary(const Values& values, std::string& out) { Writer(values, out).message(values.layout(), 0); }
+void write_binary(const Values& values, std::string& out) {
+    Writer(values, out).message(values.layout(), 0);
+}
 
 }  // namespace seautils::schema

@@ -28,19 +28,27 @@ void append_cell(std::string& out, std::string_view text) {
 
 void append_value(std::string& out, const Field& f, const Slot& s, const Values& values) {
     switch (f.kind) {
-        case Kind::boolean: out += s.i != 0 ? "true" : "false"; return;
+        case Kind::boolean:
+            out += s.i != 0 ? "true" : "false";
+            return;
         case Kind::uint32:
-        case Kind::uint64: return append_integer(out, s.u);
-        case Kind::float32: return append_float(out, static_cast<float>(s.d));
-        case Kind::float64: return append_double(out, s.d);
-        case Kind::string: return append_cell(out, values.text(s));
-        case Kind::bytes: return append_base64(out, values.text(s));
+        case Kind::uint64:
+            return append_integer(out, s.u);
+        case Kind::float32:
+            return append_float(out, static_cast<float>(s.d));
+        case Kind::float64:
+            return append_double(out, s.d);
+        case Kind::string:
+            return append_cell(out, values.text(s));
+        case Kind::bytes:
+            return append_base64(out, values.text(s));
         case Kind::enumeration:
             if (const EnumLayout::Value* v = f.enumeration->find(static_cast<std::int32_t>(s.i))) {
                 return append_cell(out, v->name);
             }
             return append_integer(out, s.i);
-        default: return append_integer(out, s.i);
+        default:
+            return append_integer(out, s.i);
     }
 }
 
@@ -76,7 +84,8 @@ public:
 private:
     void one(const Field& f, const std::string& shown, const std::string& plain,
              const std::vector<std::uint32_t>& steps, int depth) {
-        if (f.kind == Kind::message) return message(*f.message, shown + ".", plain + ".", steps, depth + 1);
+        if (f.kind == Kind::message)
+            return message(*f.message, shown + ".", plain + ".", steps, depth + 1);
         if (names_.size() >= max_columns) throw ConfigError("more than 10000 columns");
         names_.push_back(shown);
         paths_.push_back(steps);

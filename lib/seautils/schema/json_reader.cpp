@@ -71,9 +71,10 @@ private:
         for (const Field& f : layout.fields) names.push_back(f.name);
         const std::string near = nearest(key, names);
         const std::string where = path();
-        throw DataError(fmt::format("field {} is not in message {}{}{}", quote(key), layout.full_name,
-                                    where.empty() ? "" : " (at " + where + ")",
-                                    near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+        throw DataError(
+            fmt::format("field {} is not in message {}{}{}", quote(key), layout.full_name,
+                        where.empty() ? "" : " (at " + where + ")",
+                        near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
     }
 
     static void ignore(sj::value value) { value.raw_json_token(); }
@@ -84,9 +85,11 @@ private:
         if (value.is_null()) return;
         if (values_[slot].present) refuse("is given twice");
         if (f.oneof >= 0) {
-            for (const std::uint32_t other : layout.oneofs[static_cast<std::size_t>(f.oneof)].fields) {
+            for (const std::uint32_t other :
+                 layout.oneofs[static_cast<std::size_t>(f.oneof)].fields) {
                 if (values_[block + other].present) {
-                    refuse(fmt::format("and '{}' exclude each other (oneof)", layout.fields[other].name));
+                    refuse(fmt::format("and '{}' exclude each other (oneof)",
+                                       layout.fields[other].name));
                 }
             }
         }
@@ -115,16 +118,37 @@ private:
 
     void scalar(sj::value value, const Field& f, std::uint32_t slot, int depth) {
         switch (f.kind) {
-            case Kind::boolean: set_i(slot, boolean(value)); return;
-            case Kind::int32: set_i(slot, integer(value, std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max())); return;
-            case Kind::int64: set_i(slot, integer(value, std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max())); return;
-            case Kind::uint32: set_u(slot, natural(value, std::numeric_limits<std::uint32_t>::max())); return;
-            case Kind::uint64: set_u(slot, natural(value, std::numeric_limits<std::uint64_t>::max())); return;
-            case Kind::float32: set_d(slot, float32(floating(value))); return;
-            case Kind::float64: set_d(slot, floating(value)); return;
-            case Kind::string: values_.set_text(slot, string(value)); return;
-            case Kind::bytes: return bytes(value, slot);
-            case Kind::enumeration: set_i(slot, enumerator(value, f)); return;
+            case Kind::boolean:
+                set_i(slot, boolean(value));
+                return;
+            case Kind::int32:
+                set_i(slot, integer(value, std::numeric_limits<std::int32_t>::min(),
+                                    std::numeric_limits<std::int32_t>::max()));
+                return;
+            case Kind::int64:
+                set_i(slot, integer(value, std::numeric_limits<std::int64_t>::min(),
+                                    std::numeric_limits<std::int64_t>::max()));
+                return;
+            case Kind::uint32:
+                set_u(slot, natural(value, std::numeric_limits<std::uint32_t>::max()));
+                return;
+            case Kind::uint64:
+                set_u(slot, natural(value, std::numeric_limits<std::uint64_t>::max()));
+                return;
+            case Kind::float32:
+                set_d(slot, float32(floating(value)));
+                return;
+            case Kind::float64:
+                set_d(slot, floating(value));
+                return;
+            case Kind::string:
+                values_.set_text(slot, string(value));
+                return;
+            case Kind::bytes:
+                return bytes(value, slot);
+            case Kind::enumeration:
+                set_i(slot, enumerator(value, f));
+                return;
             case Kind::message: {
                 if (value.type() != sj::json_type::object) refuse("is not an object");
                 const std::uint32_t block = values_.add_block(slot, *f.message);
@@ -149,12 +173,15 @@ private:
     /// The token as it stands, for messages and for what simdjson's numbers do not hold.
     static std::string_view token(sj::value& value) {
         std::string_view text = value.raw_json_token();
-        while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '\n')) text.remove_suffix(1);
+        while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' ||
+                                 text.back() == '\n'))
+            text.remove_suffix(1);
         return text;
     }
 
     std::string_view string(sj::value& value) {
-        if (value.type() != sj::json_type::string) refuse(fmt::format("{} is not a string", shown(value)));
+        if (value.type() != sj::json_type::string)
+            refuse(fmt::format("{} is not a string", shown(value)));
         return value.get_string();
     }
 
@@ -171,7 +198,8 @@ private:
             if (text == "true" || text == "false") return text == "true";
             refuse(fmt::format("{} is neither true nor false", quote(text)));
         }
-        if (value.type() != sj::json_type::boolean) refuse(fmt::format("{} is neither true nor false", shown(value)));
+        if (value.type() != sj::json_type::boolean)
+            refuse(fmt::format("{} is neither true nor false", shown(value)));
         return value.get_bool();
     }
 
@@ -187,30 +215,36 @@ private:
         }
         double d = 0;
         const auto [d_at, d_error] = std::from_chars(text.data(), end, d);
-        if (plain_only || d_error != std::errc() || d_at != end) refuse(fmt::format("{} is not a whole number", quote(text)));
+        if (plain_only || d_error != std::errc() || d_at != end)
+            refuse(fmt::format("{} is not a whole number", quote(text)));
         if (d != std::trunc(d)) refuse(fmt::format("{} is not a whole number", quote(text)));
-        if (!(d >= static_cast<double>(min) && d <= static_cast<double>(max)) || d >= 18446744073709551616.0 ||
-            (std::is_signed_v<T> && d >= 9223372036854775808.0)) {
+        if (!(d >= static_cast<double>(min) && d <= static_cast<double>(max)) ||
+            d >= 18446744073709551616.0 || (std::is_signed_v<T> && d >= 9223372036854775808.0)) {
             refuse(fmt::format("{} is outside {} to {}", quote(text), min, max));
         }
         return static_cast<T>(d);
     }
 
     std::int64_t integer(sj::value& value, std::int64_t min, std::int64_t max) {
-        if (value.type() == sj::json_type::string) return whole<std::int64_t>(value.get_string(), min, max, true);
-        if (value.type() != sj::json_type::number) refuse(fmt::format("{} is not a number", shown(value)));
+        if (value.type() == sj::json_type::string)
+            return whole<std::int64_t>(value.get_string(), min, max, true);
+        if (value.type() != sj::json_type::number)
+            refuse(fmt::format("{} is not a number", shown(value)));
         std::int64_t x = 0;
         if (value.get_int64().get(x) == simdjson::SUCCESS && x >= min && x <= max) return x;
         return whole<std::int64_t>(number_token(value), min, max, false);
     }
 
     std::uint64_t natural(sj::value& value, std::uint64_t max) {
-        if (value.type() == sj::json_type::string) return whole<std::uint64_t>(value.get_string(), 0, max, true);
-        if (value.type() != sj::json_type::number) refuse(fmt::format("{} is not a number", shown(value)));
+        if (value.type() == sj::json_type::string)
+            return whole<std::uint64_t>(value.get_string(), 0, max, true);
+        if (value.type() != sj::json_type::number)
+            refuse(fmt::format("{} is not a number", shown(value)));
         std::uint64_t x = 0;
         if (value.get_uint64().get(x) == simdjson::SUCCESS && x <= max) return x;
         const std::string_view text = number_token(value);
-        if (text.starts_with('-') && text != "-0") refuse(fmt::format("{} is outside 0 to {}", quote(text), max));
+        if (text.starts_with('-') && text != "-0")
+            refuse(fmt::format("{} is outside 0 to {}", quote(text), max));
         return whole<std::uint64_t>(text == "-0" ? "0" : text, 0, max, false);
     }
 
@@ -231,7 +265,8 @@ private:
         if (rest.starts_with('e') || rest.starts_with('E')) {
             rest.remove_prefix(1);
             if (rest.starts_with('+') || rest.starts_with('-')) rest.remove_prefix(1);
-            good = good && !rest.empty() && rest.find_first_not_of(digits) == std::string_view::npos;
+            good =
+                good && !rest.empty() && rest.find_first_not_of(digits) == std::string_view::npos;
             rest = {};
         }
         if (!good || !rest.empty()) refuse(fmt::format("{} is not a number", quote(text)));
@@ -247,21 +282,26 @@ private:
             double x = 0;
             const char* end = text.data() + text.size();
             const auto [at, error] = std::from_chars(text.data(), end, x);
-            const bool word = text.find_first_of("nNiI") != text.npos;  // inf, nan in other spellings
-            if (error != std::errc() || at != end || word) refuse(fmt::format("{} is not a number", quote(text)));
+            const bool word =
+                text.find_first_of("nNiI") != text.npos;  // inf, nan in other spellings
+            if (error != std::errc() || at != end || word)
+                refuse(fmt::format("{} is not a number", quote(text)));
             return x;
         }
-        if (value.type() != sj::json_type::number) refuse(fmt::format("{} is not a number", shown(value)));
+        if (value.type() != sj::json_type::number)
+            refuse(fmt::format("{} is not a number", shown(value)));
         double x = 0;
         if (value.get_double().get(x) == simdjson::SUCCESS) return x;
         const std::string_view text = number_token(value);
         const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-        if (error != std::errc()) refuse(fmt::format("{} is beyond the range of its type", quote(text)));
+        if (error != std::errc())
+            refuse(fmt::format("{} is beyond the range of its type", quote(text)));
         return x;
     }
 
     double float32(double x) {
-        if (std::isfinite(x) && std::fabs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
+        if (std::isfinite(x) &&
+            std::fabs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
             refuse(fmt::format("{} is beyond the range of a float", x));
         }
         return static_cast<double>(static_cast<float>(x));
@@ -277,7 +317,10 @@ private:
     }
 
     std::int64_t enumerator(sj::value& value, const Field& f) {
-        if (value.type() == sj::json_type::number) return number_of(integer(value, std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()), f);
+        if (value.type() == sj::json_type::number)
+            return number_of(integer(value, std::numeric_limits<std::int32_t>::min(),
+                                     std::numeric_limits<std::int32_t>::max()),
+                             f);
         const std::string_view text = string(value);
         if (const EnumLayout::Value* v = f.enumeration->find(text)) return v->number;
         std::int32_t number = 0;
@@ -291,7 +334,8 @@ private:
     }
 
     std::int64_t number_of(std::int64_t number, const Field& f) {
-        if (!f.enumeration->open && f.enumeration->find(static_cast<std::int32_t>(number)) == nullptr) {
+        if (!f.enumeration->open &&
+            f.enumeration->find(static_cast<std::int32_t>(number)) == nullptr) {
             refuse(fmt::format("{} is not in enum {}", number, f.enumeration->full_name));
         }
         return number;
@@ -310,7 +354,8 @@ struct JsonReader::Impl {
 
     sj::document open(std::string_view json) {
         if (json.find('\0') != json.npos) throw DataError("a NUL byte is not JSON");
-        if (json.starts_with("\xEF\xBB\xBF")) throw DataError("the record begins with a byte order mark");
+        if (json.starts_with("\xEF\xBB\xBF"))
+            throw DataError("the record begins with a byte order mark");
         padded.assign(json);
         padded.append(simdjson::SIMDJSON_PADDING, '\0');
         const simdjson::padded_string_view view(padded.data(), json.size(), padded.size());
@@ -322,7 +367,8 @@ struct JsonReader::Impl {
         const std::size_t end = what.find_first_of(".:(");
         what = what.substr(0, end);
         for (char& c : what) c = c == '\n' ? ' ' : c;
-        if (!what.empty()) what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
+        if (!what.empty())
+            what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
         throw DataError("not valid JSON" + (path.empty() ? "" : " at " + path) + ": " + what);
     }
 };
@@ -336,7 +382,8 @@ std::string JsonReader::type_of(std::string_view json) {
     try {
         sj::document document = impl_->open(json);
         std::string_view type;
-        if (document.get_object().find_field_unordered("@type").get(type) != simdjson::SUCCESS) return {};
+        if (document.get_object().find_field_unordered("@type").get(type) != simdjson::SUCCESS)
+            return {};
         return std::string(type.substr(type.rfind('/') + 1));
     } catch (const simdjson::simdjson_error& error) {
         impl_->refuse(error, {});
@@ -348,7 +395,8 @@ void JsonReader::read(std::string_view json, const Layout& layout, Values& value
     Reader reader(values);
     try {
         sj::document document = impl_->open(json);
-        if (document.type() != sj::json_type::object) throw DataError("the record is not a JSON object");
+        if (document.type() != sj::json_type::object)
+            throw DataError("the record is not a JSON object");
         reader.object(document.get_object(), layout, 0, 1);
         const char* rest = nullptr;
         if (document.current_location().get(rest) == simdjson::SUCCESS) {

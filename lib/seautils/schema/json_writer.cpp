@@ -12,12 +12,23 @@ constexpr char hex_digits[] = "0123456789abcdef";
 
 void append_escape(std::string& out, unsigned char c) {
     switch (c) {
-        case '"': out += "\\\""; return;
-        case '\\': out += "\\\\"; return;
-        case '\n': out += "\\n"; return;
-        case '\r': out += "\\r"; return;
-        case '\t': out += "\\t"; return;
-        default: break;
+        case '"':
+            out += "\\\"";
+            return;
+        case '\\':
+            out += "\\\\";
+            return;
+        case '\n':
+            out += "\\n";
+            return;
+        case '\r':
+            out += "\\r";
+            return;
+        case '\t':
+            out += "\\t";
+            return;
+        default:
+            break;
     }
     out += "\\u00";
     out += hex_digits[c >> 4];
@@ -53,10 +64,14 @@ void append_string(std::string& out, std::string_view text) {
 }
 
 void append_floating(std::string& out, const Field& f, double x) {
-    if (std::isnan(x)) out += "\"NaN\"";
-    else if (std::isinf(x)) out += x > 0 ? "\"Infinity\"" : "\"-Infinity\"";
-    else if (f.kind == Kind::float32) append_float(out, static_cast<float>(x));
-    else append_double(out, x);
+    if (std::isnan(x))
+        out += "\"NaN\"";
+    else if (std::isinf(x))
+        out += x > 0 ? "\"Infinity\"" : "\"-Infinity\"";
+    else if (f.kind == Kind::float32)
+        append_float(out, static_cast<float>(x));
+    else
+        append_double(out, x);
 }
 
 class Writer {
@@ -90,9 +105,13 @@ private:
 
     void value(const Field& f, const Slot& s) {
         switch (f.kind) {
-            case Kind::boolean: out_ += s.i != 0 ? "true" : "false"; return;
-            case Kind::int32: return append_integer(out_, s.i);
-            case Kind::uint32: return append_integer(out_, s.u);
+            case Kind::boolean:
+                out_ += s.i != 0 ? "true" : "false";
+                return;
+            case Kind::int32:
+                return append_integer(out_, s.i);
+            case Kind::uint32:
+                return append_integer(out_, s.u);
             case Kind::int64:
                 out_ += '"';
                 append_integer(out_, s.i);
@@ -104,14 +123,17 @@ private:
                 out_ += '"';
                 return;
             case Kind::float32:
-            case Kind::float64: return append_floating(out_, f, s.d);
-            case Kind::string: return append_string(out_, values_.text(s));
+            case Kind::float64:
+                return append_floating(out_, f, s.d);
+            case Kind::string:
+                return append_string(out_, values_.text(s));
             case Kind::bytes:
                 out_ += '"';
                 append_base64(out_, values_.text(s));
                 out_ += '"';
                 return;
-            case Kind::enumeration: return enumerator(f, s);
+            case Kind::enumeration:
+                return enumerator(f, s);
             case Kind::message:
                 out_ += '{';
                 return fields(*f.message, static_cast<std::uint32_t>(s.u), true);

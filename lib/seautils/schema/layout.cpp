@@ -18,16 +18,26 @@ constexpr std::size_t max_fields = 100'000;
 
 Kind kind_of(const FieldDescriptor& f) {
     switch (f.cpp_type()) {
-        case FieldDescriptor::CPPTYPE_INT32: return Kind::int32;
-        case FieldDescriptor::CPPTYPE_INT64: return Kind::int64;
-        case FieldDescriptor::CPPTYPE_UINT32: return Kind::uint32;
-        case FieldDescriptor::CPPTYPE_UINT64: return Kind::uint64;
-        case FieldDescriptor::CPPTYPE_DOUBLE: return Kind::float64;
-        case FieldDescriptor::CPPTYPE_FLOAT: return Kind::float32;
-        case FieldDescriptor::CPPTYPE_BOOL: return Kind::boolean;
-        case FieldDescriptor::CPPTYPE_ENUM: return Kind::enumeration;
-        case FieldDescriptor::CPPTYPE_MESSAGE: return Kind::message;
-        case FieldDescriptor::CPPTYPE_STRING: break;
+        case FieldDescriptor::CPPTYPE_INT32:
+            return Kind::int32;
+        case FieldDescriptor::CPPTYPE_INT64:
+            return Kind::int64;
+        case FieldDescriptor::CPPTYPE_UINT32:
+            return Kind::uint32;
+        case FieldDescriptor::CPPTYPE_UINT64:
+            return Kind::uint64;
+        case FieldDescriptor::CPPTYPE_DOUBLE:
+            return Kind::float64;
+        case FieldDescriptor::CPPTYPE_FLOAT:
+            return Kind::float32;
+        case FieldDescriptor::CPPTYPE_BOOL:
+            return Kind::boolean;
+        case FieldDescriptor::CPPTYPE_ENUM:
+            return Kind::enumeration;
+        case FieldDescriptor::CPPTYPE_MESSAGE:
+            return Kind::message;
+        case FieldDescriptor::CPPTYPE_STRING:
+            break;
     }
     return f.type() == FieldDescriptor::TYPE_BYTES ? Kind::bytes : Kind::string;
 }
@@ -35,18 +45,24 @@ Kind kind_of(const FieldDescriptor& f) {
 WireForm wire_form_of(const FieldDescriptor& f) {
     switch (f.type()) {
         case FieldDescriptor::TYPE_SINT32:
-        case FieldDescriptor::TYPE_SINT64: return WireForm::zigzag;
+        case FieldDescriptor::TYPE_SINT64:
+            return WireForm::zigzag;
         case FieldDescriptor::TYPE_FIXED32:
         case FieldDescriptor::TYPE_SFIXED32:
-        case FieldDescriptor::TYPE_FLOAT: return WireForm::fixed32;
+        case FieldDescriptor::TYPE_FLOAT:
+            return WireForm::fixed32;
         case FieldDescriptor::TYPE_FIXED64:
         case FieldDescriptor::TYPE_SFIXED64:
-        case FieldDescriptor::TYPE_DOUBLE: return WireForm::fixed64;
+        case FieldDescriptor::TYPE_DOUBLE:
+            return WireForm::fixed64;
         case FieldDescriptor::TYPE_STRING:
         case FieldDescriptor::TYPE_BYTES:
-        case FieldDescriptor::TYPE_MESSAGE: return WireForm::length;
-        case FieldDescriptor::TYPE_GROUP: return WireForm::group;
-        default: return WireForm::varint;
+        case FieldDescriptor::TYPE_MESSAGE:
+            return WireForm::length;
+        case FieldDescriptor::TYPE_GROUP:
+            return WireForm::group;
+        default:
+            return WireForm::varint;
     }
 }
 
@@ -65,7 +81,8 @@ void fill_indices(Layout& layout) {
         layout.by_name.emplace(layout.fields[k].name, k);
     }
     for (std::uint32_t k = 0; k < layout.fields.size(); ++k) {
-        if (!layout.fields[k].json_name.empty()) layout.by_name.emplace(layout.fields[k].json_name, k);
+        if (!layout.fields[k].json_name.empty())
+            layout.by_name.emplace(layout.fields[k].json_name, k);
     }
     for (std::uint32_t k = 0; k < layout.fields.size(); ++k) {
         const Field& f = layout.fields[k];
@@ -79,14 +96,16 @@ void fill_indices(Layout& layout) {
 }  // namespace
 
 const EnumLayout::Value* EnumLayout::find(std::string_view name) const {
-    const auto at = std::lower_bound(by_name.begin(), by_name.end(), name,
-                                     [&](std::uint32_t k, std::string_view n) { return values[k].name < n; });
+    const auto at =
+        std::lower_bound(by_name.begin(), by_name.end(), name,
+                         [&](std::uint32_t k, std::string_view n) { return values[k].name < n; });
     return at != by_name.end() && values[*at].name == name ? &values[*at] : nullptr;
 }
 
 const EnumLayout::Value* EnumLayout::find(std::int32_t number) const {
-    const auto at = std::lower_bound(by_number.begin(), by_number.end(), number,
-                                     [&](std::uint32_t k, std::int32_t n) { return values[k].number < n; });
+    const auto at =
+        std::lower_bound(by_number.begin(), by_number.end(), number,
+                         [&](std::uint32_t k, std::int32_t n) { return values[k].number < n; });
     return at != by_number.end() && values[*at].number == number ? &values[*at] : nullptr;
 }
 
@@ -97,9 +116,11 @@ std::int32_t Layout::find(std::string_view name, std::uint32_t hint) const {
 }
 
 std::int32_t Layout::search_number(std::int32_t number) const {
-    const auto at = std::lower_bound(by_number.begin(), by_number.end(), number,
-                                     [&](std::uint32_t k, std::int32_t n) { return fields[k].number < n; });
-    return at != by_number.end() && fields[*at].number == number ? static_cast<std::int32_t>(*at) : -1;
+    const auto at =
+        std::lower_bound(by_number.begin(), by_number.end(), number,
+                         [&](std::uint32_t k, std::int32_t n) { return fields[k].number < n; });
+    return at != by_number.end() && fields[*at].number == number ? static_cast<std::int32_t>(*at)
+                                                                 : -1;
 }
 
 struct LayoutSet::Impl {
@@ -135,7 +156,8 @@ const EnumLayout& LayoutSet::Impl::enumeration(const google::protobuf::EnumDescr
 }
 
 /// The layout, which is put on the list of those to be filled when it is new.
-Layout& LayoutSet::Impl::begin(const google::protobuf::Descriptor& descriptor, std::vector<Layout*>& open) {
+Layout& LayoutSet::Impl::begin(const google::protobuf::Descriptor& descriptor,
+                               std::vector<Layout*>& open) {
     Layout*& known = of[&descriptor];
     if (known == nullptr) {
         known = &layouts.emplace_back();
@@ -183,7 +205,9 @@ const Layout& LayoutSet::of(const google::protobuf::Descriptor& descriptor) {
         for (int k = 0; k < d.field_count(); ++k) {
             layout.fields.push_back(impl_->field(*d.field(k), open));
             const std::int32_t oneof = layout.fields.back().oneof;
-            if (oneof >= 0) layout.oneofs[static_cast<std::size_t>(oneof)].fields.push_back(static_cast<std::uint32_t>(k));
+            if (oneof >= 0)
+                layout.oneofs[static_cast<std::size_t>(oneof)].fields.push_back(
+                    static_cast<std::uint32_t>(k));
         }
         fill_indices(layout);
     }

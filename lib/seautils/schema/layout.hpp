@@ -63,14 +63,14 @@ struct Field {
     std::int32_t number = 0;
     Kind kind = Kind::int32;
     WireForm wire_form = WireForm::varint;
-    bool required = false;           ///< proto2 `required`
+    bool required = false;  ///< proto2 `required`
     bool repeated = false;
     bool packed = false;             ///< binary form writes one length-prefixed run
     bool has_presence = true;        ///< false: proto3 scalar, where the default value means unset
     bool nullable_elements = false;  ///< elements of the repeated field may be null (legacy arrays)
     std::int32_t oneof = -1;         ///< index into Layout::oneofs (real and synthetic), or -1
-    const Layout* message = nullptr;          ///< kind message
-    const EnumLayout* enumeration = nullptr;  ///< kind enumeration
+    const Layout* message = nullptr;                                ///< kind message
+    const EnumLayout* enumeration = nullptr;                        ///< kind enumeration
     const google::protobuf::FieldDescriptor* descriptor = nullptr;  ///< null in a legacy layout
 };
 

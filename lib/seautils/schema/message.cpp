@@ -25,27 +25,48 @@ public:
         const Reflection& r = *message.GetReflection();
         for (std::uint32_t k = 0; k < layout.fields.size(); ++k) {
             const Field& f = layout.fields[k];
-            if (f.repeated) list(message, r, f, at + k, depth);
-            else if (r.HasField(message, f.descriptor)) single(message, r, f, at + k, depth);
+            if (f.repeated)
+                list(message, r, f, at + k, depth);
+            else if (r.HasField(message, f.descriptor))
+                single(message, r, f, at + k, depth);
         }
     }
 
 private:
-    void single(const Message& m, const Reflection& r, const Field& f, std::uint32_t at, int depth) {
+    void single(const Message& m, const Reflection& r, const Field& f, std::uint32_t at,
+                int depth) {
         Slot& s = values_[at];
         const auto* d = f.descriptor;
         s.present = true;
         switch (f.kind) {
-            case Kind::boolean: s.i = r.GetBool(m, d) ? 1 : 0; return;
-            case Kind::int32: s.i = r.GetInt32(m, d); return;
-            case Kind::int64: s.i = r.GetInt64(m, d); return;
-            case Kind::uint32: s.u = r.GetUInt32(m, d); return;
-            case Kind::uint64: s.u = r.GetUInt64(m, d); return;
-            case Kind::float32: s.d = static_cast<double>(r.GetFloat(m, d)); return;
-            case Kind::float64: s.d = r.GetDouble(m, d); return;
-            case Kind::enumeration: s.i = r.GetEnumValue(m, d); return;
+            case Kind::boolean:
+                s.i = r.GetBool(m, d) ? 1 : 0;
+                return;
+            case Kind::int32:
+                s.i = r.GetInt32(m, d);
+                return;
+            case Kind::int64:
+                s.i = r.GetInt64(m, d);
+                return;
+            case Kind::uint32:
+                s.u = r.GetUInt32(m, d);
+                return;
+            case Kind::uint64:
+                s.u = r.GetUInt64(m, d);
+                return;
+            case Kind::float32:
+                s.d = static_cast<double>(r.GetFloat(m, d));
+                return;
+            case Kind::float64:
+                s.d = r.GetDouble(m, d);
+                return;
+            case Kind::enumeration:
+                s.i = r.GetEnumValue(m, d);
+                return;
             case Kind::string:
-            case Kind::bytes: values_.set_text(at, r.GetStringReference(m, d, &scratch_)); return;
+            case Kind::bytes:
+                values_.set_text(at, r.GetStringReference(m, d, &scratch_));
+                return;
             case Kind::message:
                 block(r.GetMessage(m, d), *f.message, values_.add_block(at, *f.message), depth + 1);
                 return;
@@ -56,26 +77,47 @@ private:
         const int count = r.FieldSize(m, f.descriptor);
         if (count == 0) return;
         const std::uint32_t first = values_.add_elements(at, static_cast<std::uint32_t>(count));
-        for (int k = 0; k < count; ++k) element(m, r, f, k, first + static_cast<std::uint32_t>(k), depth);
+        for (int k = 0; k < count; ++k)
+            element(m, r, f, k, first + static_cast<std::uint32_t>(k), depth);
     }
 
-    void element(const Message& m, const Reflection& r, const Field& f, int k, std::uint32_t at, int depth) {
+    void element(const Message& m, const Reflection& r, const Field& f, int k, std::uint32_t at,
+                 int depth) {
         Slot& s = values_[at];
         const auto* d = f.descriptor;
         s.present = true;
         switch (f.kind) {
-            case Kind::boolean: s.i = r.GetRepeatedBool(m, d, k) ? 1 : 0; return;
-            case Kind::int32: s.i = r.GetRepeatedInt32(m, d, k); return;
-            case Kind::int64: s.i = r.GetRepeatedInt64(m, d, k); return;
-            case Kind::uint32: s.u = r.GetRepeatedUInt32(m, d, k); return;
-            case Kind::uint64: s.u = r.GetRepeatedUInt64(m, d, k); return;
-            case Kind::float32: s.d = static_cast<double>(r.GetRepeatedFloat(m, d, k)); return;
-            case Kind::float64: s.d = r.GetRepeatedDouble(m, d, k); return;
-            case Kind::enumeration: s.i = r.GetRepeatedEnumValue(m, d, k); return;
+            case Kind::boolean:
+                s.i = r.GetRepeatedBool(m, d, k) ? 1 : 0;
+                return;
+            case Kind::int32:
+                s.i = r.GetRepeatedInt32(m, d, k);
+                return;
+            case Kind::int64:
+                s.i = r.GetRepeatedInt64(m, d, k);
+                return;
+            case Kind::uint32:
+                s.u = r.GetRepeatedUInt32(m, d, k);
+                return;
+            case Kind::uint64:
+                s.u = r.GetRepeatedUInt64(m, d, k);
+                return;
+            case Kind::float32:
+                s.d = static_cast<double>(r.GetRepeatedFloat(m, d, k));
+                return;
+            case Kind::float64:
+                s.d = r.GetRepeatedDouble(m, d, k);
+                return;
+            case Kind::enumeration:
+                s.i = r.GetRepeatedEnumValue(m, d, k);
+                return;
             case Kind::string:
-            case Kind::bytes: values_.set_text(at, r.GetRepeatedStringReference(m, d, k, &scratch_)); return;
+            case Kind::bytes:
+                values_.set_text(at, r.GetRepeatedStringReference(m, d, k, &scratch_));
+                return;
             case Kind::message:
-                block(r.GetRepeatedMessage(m, d, k), *f.message, values_.add_block(at, *f.message), depth + 1);
+                block(r.GetRepeatedMessage(m, d, k), *f.message, values_.add_block(at, *f.message),
+                      depth + 1);
                 return;
         }
     }
@@ -99,7 +141,8 @@ public:
                 single(message, r, f, s);
                 continue;
             }
-            for (std::uint32_t e = 0; e < s.aux; ++e) add(message, r, f, values_[static_cast<std::uint32_t>(s.u) + e]);
+            for (std::uint32_t e = 0; e < s.aux; ++e)
+                add(message, r, f, values_[static_cast<std::uint32_t>(s.u) + e]);
         }
     }
 
@@ -107,34 +150,74 @@ private:
     void single(Message& m, const Reflection& r, const Field& f, const Slot& s) {
         const auto* d = f.descriptor;
         switch (f.kind) {
-            case Kind::boolean: r.SetBool(&m, d, s.i != 0); return;
-            case Kind::int32: r.SetInt32(&m, d, static_cast<std::int32_t>(s.i)); return;
-            case Kind::int64: r.SetInt64(&m, d, s.i); return;
-            case Kind::uint32: r.SetUInt32(&m, d, static_cast<std::uint32_t>(s.u)); return;
-            case Kind::uint64: r.SetUInt64(&m, d, s.u); return;
-            case Kind::float32: r.SetFloat(&m, d, static_cast<float>(s.d)); return;
-            case Kind::float64: r.SetDouble(&m, d, s.d); return;
-            case Kind::enumeration: r.SetEnumValue(&m, d, static_cast<int>(s.i)); return;
+            case Kind::boolean:
+                r.SetBool(&m, d, s.i != 0);
+                return;
+            case Kind::int32:
+                r.SetInt32(&m, d, static_cast<std::int32_t>(s.i));
+                return;
+            case Kind::int64:
+                r.SetInt64(&m, d, s.i);
+                return;
+            case Kind::uint32:
+                r.SetUInt32(&m, d, static_cast<std::uint32_t>(s.u));
+                return;
+            case Kind::uint64:
+                r.SetUInt64(&m, d, s.u);
+                return;
+            case Kind::float32:
+                r.SetFloat(&m, d, static_cast<float>(s.d));
+                return;
+            case Kind::float64:
+                r.SetDouble(&m, d, s.d);
+                return;
+            case Kind::enumeration:
+                r.SetEnumValue(&m, d, static_cast<int>(s.i));
+                return;
             case Kind::string:
-            case Kind::bytes: r.SetString(&m, d, std::string(values_.text(s))); return;
-            case Kind::message: block(static_cast<std::uint32_t>(s.u), *f.message, *r.MutableMessage(&m, d)); return;
+            case Kind::bytes:
+                r.SetString(&m, d, std::string(values_.text(s)));
+                return;
+            case Kind::message:
+                block(static_cast<std::uint32_t>(s.u), *f.message, *r.MutableMessage(&m, d));
+                return;
         }
     }
 
     void add(Message& m, const Reflection& r, const Field& f, const Slot& s) {
         const auto* d = f.descriptor;
         switch (f.kind) {
-            case Kind::boolean: r.AddBool(&m, d, s.i != 0); return;
-            case Kind::int32: r.AddInt32(&m, d, static_cast<std::int32_t>(s.i)); return;
-            case Kind::int64: r.AddInt64(&m, d, s.i); return;
-            case Kind::uint32: r.AddUInt32(&m, d, static_cast<std::uint32_t>(s.u)); return;
-            case Kind::uint64: r.AddUInt64(&m, d, s.u); return;
-            case Kind::float32: r.AddFloat(&m, d, static_cast<float>(s.d)); return;
-            case Kind::float64: r.AddDouble(&m, d, s.d); return;
-            case Kind::enumeration: r.AddEnumValue(&m, d, static_cast<int>(s.i)); return;
+            case Kind::boolean:
+                r.AddBool(&m, d, s.i != 0);
+                return;
+            case Kind::int32:
+                r.AddInt32(&m, d, static_cast<std::int32_t>(s.i));
+                return;
+            case Kind::int64:
+                r.AddInt64(&m, d, s.i);
+                return;
+            case Kind::uint32:
+                r.AddUInt32(&m, d, static_cast<std::uint32_t>(s.u));
+                return;
+            case Kind::uint64:
+                r.AddUInt64(&m, d, s.u);
+                return;
+            case Kind::float32:
+                r.AddFloat(&m, d, static_cast<float>(s.d));
+                return;
+            case Kind::float64:
+                r.AddDouble(&m, d, s.d);
+                return;
+            case Kind::enumeration:
+                r.AddEnumValue(&m, d, static_cast<int>(s.i));
+                return;
             case Kind::string:
-            case Kind::bytes: r.AddString(&m, d, std::string(values_.text(s))); return;
-            case Kind::message: block(static_cast<std::uint32_t>(s.u), *f.message, *r.AddMessage(&m, d)); return;
+            case Kind::bytes:
+                r.AddString(&m, d, std::string(values_.text(s)));
+                return;
+            case Kind::message:
+                block(static_cast<std::uint32_t>(s.u), *f.message, *r.AddMessage(&m, d));
+                return;
         }
     }
 

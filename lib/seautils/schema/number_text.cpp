@@ -61,7 +61,9 @@ void append_double(std::string& out, double x) {
 }
 
 void append_float(std::string& out, float x) {
-    if (append_short(out, static_cast<double>(x), [x](double y) { return static_cast<float>(y) == x; })) return;
+    if (append_short(out, static_cast<double>(x),
+                     [x](double y) { return static_cast<float>(y) == x; }))
+        return;
     fmt::format_to(std::back_inserter(out), "{}", x);
 }
 

@@ -35,12 +35,14 @@ class Faults : public google::protobuf::compiler::MultiFileErrorCollector {
 public:
     explicit Faults(const SourceTree& tree) : tree_(tree) {}
 
-    void AddError(const std::string& file, int line, int column, const std::string& message) override {
+    void AddError(const std::string& file, int line, int column,
+                  const std::string& message) override {
         const std::string text = one_line(message);
         if (line < 0) {
             if (unplaced_.empty()) unplaced_ = tree_.shown(file) + ": " + text;
         } else if (placed_.empty()) {
-            placed_ = tree_.shown(file) + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": " + text;
+            placed_ = tree_.shown(file) + ":" + std::to_string(line + 1) + ":" +
+                      std::to_string(column + 1) + ": " + text;
         }
     }
     void clear() { placed_.clear(), unplaced_.clear(); }
@@ -64,12 +66,14 @@ private:
 
 /// The files that protobuf itself brings, from its own descriptors.
 void add_well_known(google::protobuf::SimpleDescriptorDatabase& database) {
-    for (const FileDescriptor* file :
-         {google::protobuf::FileDescriptorProto::descriptor()->file(),
-          google::protobuf::Any::descriptor()->file(), google::protobuf::Duration::descriptor()->file(),
-          google::protobuf::Empty::descriptor()->file(), google::protobuf::FieldMask::descriptor()->file(),
-          google::protobuf::Struct::descriptor()->file(), google::protobuf::Timestamp::descriptor()->file(),
-          google::protobuf::Int32Value::descriptor()->file()}) {
+    for (const FileDescriptor* file : {google::protobuf::FileDescriptorProto::descriptor()->file(),
+                                       google::protobuf::Any::descriptor()->file(),
+                                       google::protobuf::Duration::descriptor()->file(),
+                                       google::protobuf::Empty::descriptor()->file(),
+                                       google::protobuf::FieldMask::descriptor()->file(),
+                                       google::protobuf::Struct::descriptor()->file(),
+                                       google::protobuf::Timestamp::descriptor()->file(),
+                                       google::protobuf::Int32Value::descriptor()->file()}) {
         google::protobuf::FileDescriptorProto proto;
         file->CopyTo(&proto);
         database.Add(proto);
@@ -89,7 +93,8 @@ void find_protos(const fs::path& folder, int depth, std::vector<std::string>& fo
         } else if (path.extension() == ".proto" && !is_builtin_path(path.string())) {
             found.push_back(path.string());
         }
-        if (found.size() > max_files) throw ConfigError(folder.string() + ": more than 1000 .proto files");
+        if (found.size() > max_files)
+            throw ConfigError(folder.string() + ": more than 1000 .proto files");
     }
 }
 
@@ -124,19 +129,22 @@ struct Pool::Impl {
     void compile(const std::string& name) {
         faults.clear();
         const FileDescriptor* file = pool.FindFileByName(name);
-        if (file == nullptr) throw ConfigError(faults.what().empty() ? name + ": not found" : faults.what());
+        if (file == nullptr)
+            throw ConfigError(faults.what().empty() ? name + ": not found" : faults.what());
         if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
     }
 };
 
-Pool::Pool(std::vector<std::string> import_folders) : impl_(std::make_unique<Impl>(std::move(import_folders))) {}
+Pool::Pool(std::vector<std::string> import_folders)
+    : impl_(std::make_unique<Impl>(std::move(import_folders))) {}
 Pool::~Pool() = default;
 Pool::Pool(Pool&&) noexcept = default;
 Pool& Pool::operator=(Pool&&) noexcept = default;
 
 void Pool::load(const std::string& path) {
     for (const BuiltinFile& file : builtin_files()) {
-        if (is_builtin_path(path) && path.ends_with(file.path)) return impl_->compile(std::string(file.path));
+        if (is_builtin_path(path) && path.ends_with(file.path))
+            return impl_->compile(std::string(file.path));
     }
     std::error_code error;
     if (!fs::is_directory(path, error)) return impl_->compile(impl_->tree.add_file(path));
@@ -168,7 +176,8 @@ const Descriptor& Pool::message(const std::string& name) const {
         names.push_back(message->full_name());
         if (!message->full_name().ends_with("." + name)) continue;
         if (found != nullptr) {
-            throw ConfigError("message " + quote(name) + " is ambiguous: " + found->full_name() + " or " + message->full_name());
+            throw ConfigError("message " + quote(name) + " is ambiguous: " + found->full_name() +
+                              " or " + message->full_name());
         }
         found = message;
     }
@@ -179,7 +188,8 @@ const Descriptor& Pool::message(const std::string& name) const {
 }
 
 std::unique_ptr<google::protobuf::Message> Pool::new_message(const Descriptor& descriptor) const {
-    return std::unique_ptr<google::protobuf::Message>(impl_->factory.GetPrototype(&descriptor)->New());
+    return std::unique_ptr<google::protobuf::Message>(
+        impl_->factory.GetPrototype(&descriptor)->New());
 }
 
 const Layout& Pool::layout(const Descriptor& descriptor) { return impl_->layouts.of(descriptor); }

@@ -47,8 +47,10 @@ std::size_t skip_opaque(const std::string& text, std::size_t at) {
     }
     if (text[at] != '"' && text[at] != '\'') return at;
     for (std::size_t k = at + 1; k < text.size(); ++k) {
-        if (text[k] == '\\') ++k;
-        else if (text[k] == text[at] || text[k] == '\n') return k;
+        if (text[k] == '\\')
+            ++k;
+        else if (text[k] == text[at] || text[k] == '\n')
+            return k;
     }
     return text.size();
 }
@@ -80,7 +82,8 @@ std::string SourceTree::add_file(const std::string& path) {
     std::error_code error;
     const fs::path absolute = fs::canonical(path, error);
     if (error) throw Error(ExitCode::no_input, path + ": " + error.message());
-    if (!fs::is_regular_file(absolute)) throw Error(ExitCode::no_input, path + ": not a regular file");
+    if (!fs::is_regular_file(absolute))
+        throw Error(ExitCode::no_input, path + ": not a regular file");
     std::vector<std::string> bases;
     fs::path folder = absolute.parent_path();
     for (int k = 0; k <= parent_folders && folder != folder.root_path(); ++k) {
@@ -110,7 +113,8 @@ std::string SourceTree::shown(const std::string& name) const {
 }
 
 std::string SourceTree::find(const std::string& import) const {
-    if (import.empty() || import.front() == '/' || import.find('\0') != std::string::npos) return {};
+    if (import.empty() || import.front() == '/' || import.find('\0') != std::string::npos)
+        return {};
     for (const auto* folders : {&bases_, &import_folders_}) {
         for (const std::string& folder : *folders) {
             std::error_code error;

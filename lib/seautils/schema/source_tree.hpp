@@ -36,7 +36,7 @@ private:
     std::string find(const std::string& import) const;
 
     std::vector<std::string> import_folders_;
-    std::vector<std::string> bases_;  ///< of the file added last, then of those before
+    std::vector<std::string> bases_;            ///< of the file added last, then of those before
     std::map<std::string, std::string> paths_;  ///< by protobuf's name
     std::map<std::string, std::string> shown_;
     std::map<std::string, std::string> texts_;

@@ -14,13 +14,26 @@ void append_quoted(std::string& out, std::string_view text) {
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
         switch (c) {
-            case '"': out += "\\\""; continue;
-            case '\'': out += "\\'"; continue;
-            case '\\': out += "\\\\"; continue;
-            case '\n': out += "\\n"; continue;
-            case '\r': out += "\\r"; continue;
-            case '\t': out += "\\t"; continue;
-            default: break;
+            case '"':
+                out += "\\\"";
+                continue;
+            case '\'':
+                out += "\\'";
+                continue;
+            case '\\':
+                out += "\\\\";
+                continue;
+            case '\n':
+                out += "\\n";
+                continue;
+            case '\r':
+                out += "\\r";
+                continue;
+            case '\t':
+                out += "\\t";
+                continue;
+            default:
+                break;
         }
         if (byte >= 0x20 && byte < 0x7f) {
             out += c;
@@ -67,20 +80,28 @@ private:
 
     void value(const Field& f, const Slot& s) {
         switch (f.kind) {
-            case Kind::boolean: out_ += s.i != 0 ? "true" : "false"; return;
+            case Kind::boolean:
+                out_ += s.i != 0 ? "true" : "false";
+                return;
             case Kind::uint32:
-            case Kind::uint64: return append_integer(out_, s.u);
-            case Kind::float32: return append_float(out_, static_cast<float>(s.d));
-            case Kind::float64: return append_double(out_, s.d);
+            case Kind::uint64:
+                return append_integer(out_, s.u);
+            case Kind::float32:
+                return append_float(out_, static_cast<float>(s.d));
+            case Kind::float64:
+                return append_double(out_, s.d);
             case Kind::string:
-            case Kind::bytes: return append_quoted(out_, values_.text(s));
+            case Kind::bytes:
+                return append_quoted(out_, values_.text(s));
             case Kind::enumeration:
-                if (const EnumLayout::Value* v = f.enumeration->find(static_cast<std::int32_t>(s.i))) {
+                if (const EnumLayout::Value* v =
+                        f.enumeration->find(static_cast<std::int32_t>(s.i))) {
                     out_ += v->name;
                     return;
                 }
                 return append_integer(out_, s.i);
-            default: return append_integer(out_, s.i);
+            default:
+                return append_integer(out_, s.i);
         }
     }
 
@@ -90,6 +111,8 @@ private:
 
 }  // namespace
 
-void write_text(const Values& values, std::string& out) { Writer(values, out).message(values.layout(), 0); }
+void write_text(const Values& values, std::string& out) {
+    Writer(values, out).message(values.layout(), 0);
+}
 
 }  // namespace seautils::schema

@@ -58,7 +58,8 @@ std::uint32_t Values::append_element(std::uint32_t index) {
 char* Values::add_text(std::uint32_t index, std::uint32_t count) {
     const std::size_t at = text_.size();
     if (count > max_text_bytes || at + count > max_text_bytes) {
-        throw DataError("the record has more than " + std::to_string(max_text_bytes) + " bytes of text");
+        throw DataError("the record has more than " + std::to_string(max_text_bytes) +
+                        " bytes of text");
     }
     text_.resize(at + count);
     slots_[index].u = at;
@@ -68,29 +69,36 @@ char* Values::add_text(std::uint32_t index, std::uint32_t count) {
 }
 
 void Values::set_text(std::uint32_t index, std::string_view bytes) {
-    char* to = add_text(index, static_cast<std::uint32_t>(std::min<std::size_t>(bytes.size(), max_text_bytes + 1U)));
+    char* to = add_text(index, static_cast<std::uint32_t>(
+                                   std::min<std::size_t>(bytes.size(), max_text_bytes + 1U)));
     if (!bytes.empty()) std::memcpy(to, bytes.data(), bytes.size());
 }
 
 namespace {
 
-bool equal_blocks(const Values& a, std::uint32_t in_a, const Values& b, std::uint32_t in_b, const Layout& layout);
+bool equal_blocks(const Values& a, std::uint32_t in_a, const Values& b, std::uint32_t in_b,
+                  const Layout& layout);
 
 bool equal_one(const Field& f, const Values& a, const Slot& x, const Values& b, const Slot& y) {
     if (x.present != y.present) return false;
     if (!x.present) return true;
     switch (f.kind) {
         case Kind::message:
-            return equal_blocks(a, static_cast<std::uint32_t>(x.u), b, static_cast<std::uint32_t>(y.u), *f.message);
+            return equal_blocks(a, static_cast<std::uint32_t>(x.u), b,
+                                static_cast<std::uint32_t>(y.u), *f.message);
         case Kind::string:
-        case Kind::bytes: return a.text(x) == b.text(y);
+        case Kind::bytes:
+            return a.text(x) == b.text(y);
         case Kind::float32:
-        case Kind::float64: return x.u == y.u || (std::isnan(x.d) && std::isnan(y.d));
-        default: return x.u == y.u;
+        case Kind::float64:
+            return x.u == y.u || (std::isnan(x.d) && std::isnan(y.d));
+        default:
+            return x.u == y.u;
     }
 }
 
-bool equal_blocks(const Values& a, std::uint32_t in_a, const Values& b, std::uint32_t in_b, const Layout& layout) {
+bool equal_blocks(const Values& a, std::uint32_t in_a, const Values& b, std::uint32_t in_b,
+                  const Layout& layout) {
     for (std::uint32_t k = 0; k < layout.fields.size(); ++k) {
         const Field& f = layout.fields[k];
         const Slot& x = a[in_a + k];
@@ -102,7 +110,9 @@ bool equal_blocks(const Values& a, std::uint32_t in_a, const Values& b, std::uin
         const std::uint32_t count = x.present ? x.aux : 0;
         if (count != (y.present ? y.aux : 0)) return false;
         for (std::uint32_t e = 0; e < count; ++e) {
-            if (!equal_one(f, a, a[static_cast<std::uint32_t>(x.u) + e], b, b[static_cast<std::uint32_t>(y.u) + e])) return false;
+            if (!equal_one(f, a, a[static_cast<std::uint32_t>(x.u) + e], b,
+                           b[static_cast<std::uint32_t>(y.u) + e]))
+                return false;
         }
     }
     return true;

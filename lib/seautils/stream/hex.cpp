@@ -27,8 +27,8 @@ std::uint8_t value_of(char c) { return digit_values[static_cast<unsigned char>(c
 [[noreturn]] void refuse(std::string_view text, std::size_t skipped) {
     for (std::size_t k = 0; k < text.size(); ++k) {
         if (value_of(text[k]) == 0xff) {
-            throw DataError(quote(text.substr(k, 1)) + " in column " + std::to_string(skipped + k + 1) +
-                            " is no hexadecimal digit");
+            throw DataError(quote(text.substr(k, 1)) + " in column " +
+                            std::to_string(skipped + k + 1) + " is no hexadecimal digit");
         }
     }
     throw DataError(std::to_string(text.size()) + " hexadecimal digits are half a byte too few");

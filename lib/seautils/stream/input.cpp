@@ -28,7 +28,10 @@ bool would_wait(int fd) {
 }  // namespace
 
 Input::Input(int fd, std::string path, Options options)
-    : fd_(fd), path_(std::move(path)), options_(std::move(options)), buffer_(2 * block_bytes + padding_bytes) {}
+    : fd_(fd),
+      path_(std::move(path)),
+      options_(std::move(options)),
+      buffer_(2 * block_bytes + padding_bytes) {}
 
 Input::~Input() {
     if (fd_ > 2) ::close(fd_);
@@ -81,7 +84,8 @@ bool Input::wait_for_more() {
     struct stat open {};
     struct stat named {};
     if (path_.empty() || ::fstat(fd_, &open) != 0 || !S_ISREG(open.st_mode)) return !path_.empty();
-    if (::stat(path_.c_str(), &named) == 0 && (named.st_ino != open.st_ino || named.st_dev != open.st_dev)) {
+    if (::stat(path_.c_str(), &named) == 0 &&
+        (named.st_ino != open.st_ino || named.st_dev != open.st_dev)) {
         const int fd = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
         if (fd >= 0) {
             ::close(fd_);
@@ -96,14 +100,15 @@ bool Input::wait_for_more() {
 Input::Got Input::line(std::string_view& line) {
     for (;;) {
         const std::string_view bytes = held();
-        const void* found = searched_ < bytes.size()
-                                ? std::memchr(bytes.data() + searched_, '\n', bytes.size() - searched_)
-                                : nullptr;
+        const void* found = searched_ < bytes.size() ? std::memchr(bytes.data() + searched_, '\n',
+                                                                   bytes.size() - searched_)
+                                                     : nullptr;
         const bool last = found == nullptr && ended_;
         if (last && bytes.empty()) return Got::end;
         if (found != nullptr || last) {
             const std::size_t length =
-                last ? bytes.size() : static_cast<std::size_t>(static_cast<const char*>(found) - bytes.data());
+                last ? bytes.size()
+                     : static_cast<std::size_t>(static_cast<const char*>(found) - bytes.data());
             const std::size_t taken = last ? length : length + 1;
             line = bytes.substr(0, length);
             if (line.ends_with('\r')) line.remove_suffix(1);
@@ -159,13 +164,15 @@ Input::Got Input::record(std::string_view& record) {
     }
     ++count_;
     if (length > options_.max_record) {
-        throw Error(ExitCode::data, "record of " + std::to_string(length) + " bytes is longer than " +
+        throw Error(ExitCode::data, "record of " + std::to_string(length) +
+                                        " bytes is longer than " +
                                         std::to_string(options_.max_record) + " (--max-record)");
     }
     while (held().size() - at < length) {
         if (!fill()) {
-            throw Error(ExitCode::data, "the stream ends after " + std::to_string(held().size() - at) +
-                                            " of the record's " + std::to_string(length) + " bytes");
+            throw Error(ExitCode::data,
+                        "the stream ends after " + std::to_string(held().size() - at) +
+                            " of the record's " + std::to_string(length) + " bytes");
         }
     }
     record = held().substr(at, length);

@@ -16,12 +16,20 @@ public:
     ~Output() = default;  ///< what is not flushed is dropped: call close()
 
     void write(std::string_view bytes);
-    Output& operator<<(std::string_view bytes) { write(bytes); return *this; }
-    Output& operator<<(char c) { write({&c, 1}); return *this; }
+    Output& operator<<(std::string_view bytes) {
+        write(bytes);
+        return *this;
+    }
+    Output& operator<<(char c) {
+        write({&c, 1});
+        return *this;
+    }
 
     /// The buffer itself, to append to; call commit() after each record.
     std::string& buffer() { return buffer_; }
-    void commit() { if (buffer_.size() >= limit_) flush(); }
+    void commit() {
+        if (buffer_.size() >= limit_) flush();
+    }
 
     /// Writes all that is buffered. @throws Error(io)  with the system's reason
     void flush();
