@@ -46,7 +46,7 @@ struct NumberCode {
 double step_of_precision(std::int32_t precision);
 
 /// ceil(log2(n)) with log2 rounded to a double, as the reference computes it, without libm.
-/// Check values: 1 gives 0, 2 gives 1, 128.00000000000003 gives 8, 2^52 + 1 gives 52.
+/// Check values: 1 gives 0, 2 gives 1, 129 gives 8, 2^52 + 1 gives 52.
 unsigned bits_for(double n);
 
 /// The code for values of `kind` from min to max in steps of `resolution`.
