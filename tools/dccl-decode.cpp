@@ -18,6 +18,10 @@ using namespace seautils;
 
 namespace {
 
+std::string counted_bytes(std::size_t n) {
+    return std::to_string(n) + (n == 1 ? " byte" : " bytes");
+}
+
 class Tool {
 public:
     Tool(cli::Io& io, const tools::DcclOptions& options)
@@ -51,7 +55,9 @@ public:
             } catch (const DataError& e) {
                 if (rest.size() == bytes_.size()) throw;
                 if (options_.lenient) return;
-                throw DataError(std::to_string(rest.size()) + " bytes are left over: " + e.what());
+                throw DataError(counted_bytes(rest.size()) +
+                                (rest.size() == 1 ? " is left over: " : " are left over: ") +
+                                e.what());
             }
             if (options_.header_only) return;
         } while (!rest.empty() && !padding(rest));
@@ -71,8 +77,7 @@ public:
                 at += found.skipped;
                 lost_ = !found.synchronous;
                 if (lost_) return at;
-                io_.refuse_at(lost_at_, std::to_string(offset + at - lost_at_) +
-                                            " bytes skipped: no message begins there");
+                skipped(offset + at);
             } catch (const dccl::Truncated& e) {
                 if (!ended) return at;
                 fail(offset + at, e, resync);
@@ -80,10 +85,7 @@ public:
                 fail(offset + at, e, resync);
             }
         }
-        if (ended && lost_) {
-            io_.refuse_at(lost_at_, std::to_string(offset + at - lost_at_) +
-                                        " bytes skipped: no message begins there");
-        }
+        if (ended && lost_) skipped(offset + at);
         return at;
     }
 
@@ -97,14 +99,22 @@ private:
         lost_at_ = offset;
     }
 
+    void skipped(std::uint64_t end) {
+        io_.refuse_at(lost_at_, counted_bytes(static_cast<std::size_t>(end - lost_at_)) +
+                                    " skipped: no message begins there");
+    }
+
     std::size_t message(std::string_view bytes) {
         const dccl::TypeSet::Decoded decoded = types_.decode(bytes, values_);
         std::string& out = io_.out.buffer();
         if (io_.format == "ndjson") {
             schema::write_json(values_, out, types_.single() ? "" : decoded.type->name);
         } else if (io_.format == "text") {
+            const std::size_t start = out.size();
             if (!types_.single()) out += "|" + decoded.type->name + "| ";
             schema::write_text(values_, out);
+            // An empty line is no record: a message of which nothing is set shows its type.
+            if (out.size() == start) out += "|" + decoded.type->name + "|";
         } else if (csv_) {
             csv_->row(values_, out);
         } else {

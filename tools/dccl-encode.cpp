@@ -13,6 +13,9 @@ namespace {
 class Tool {
 public:
     Tool(cli::Io& io, const tools::DcclOptions& options) : io_(io), types_(options.load(io)) {
+        if (io.input_format != "ndjson" && types_.types()[0].legacy != nullptr) {
+            throw Error(ExitCode::usage, "messages of DCCL 1 are read from ndjson only");
+        }
         if (io.input_format == "delimited" && types_.usual() == nullptr) {
             throw Error(ExitCode::usage,
                         "delimited records do not say their type: choose it with -m");
@@ -45,9 +48,6 @@ private:
             record.remove_prefix(end + 1);
         }
         const dccl::Type& type = named(name);
-        if (type.legacy != nullptr) {
-            throw Error(ExitCode::usage, "messages of DCCL 1 are read from ndjson only");
-        }
         if (io_.input_format == "text")
             schema::read_text(record, types_.pool(), *type.layout, values_);
         else

@@ -4,16 +4,17 @@
 
 #include "seautils/cli/app.hpp"
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 #include "seautils/dccl/models.hpp"
 #include "seautils/dccl/type_set.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +35,10 @@ struct DcclOptions {
     /// What decides on the types: all three tools.
     void add_type_options(CLI::App& app) {
         app.add_option("--id-codec", id_codec, "Identifiers of frames: default, or ccl (WHOI CCL)")
-            ->check(CLI::IsMember({"default", "ccl"}))
+            ->check([](const std::string& name) {
+                const bool known = name == "default" || name == "ccl";
+                return known ? std::string() : quote(name) + " is none of default, ccl";
+            })
             ->option_text("NAME");
         app.add_option("--arithmetic-model", arithmetic_models,
                        "Model of the arithmetic codec, in text format; may repeat")
@@ -62,31 +66,32 @@ struct DcclOptions {
 
 private:
     std::optional<std::string> passphrase() const;
+    void check_legacy(const dccl::TypeSet& types, const cli::Io& io) const;
 };
 
-/// The whole of a small file. @throws Error(no_input)
-inline std::string file_text(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (!in.is_open() || in.bad()) {
-        throw Error(ExitCode::no_input, path + ": " + std::strerror(errno != 0 ? errno : EIO));
-    }
-    return text;
-}
-
-/// All that comes from a descriptor, at most 64 KiB.
-inline std::string descriptor_text(int fd) {
+/// All that comes from a descriptor; `name` stands for it in messages.
+/// @throws Error(no_input)  cannot be read
+/// @throws ConfigError      longer than 1 MiB
+inline std::string descriptor_text(int fd, const std::string& name) {
     std::string text;
     char block[4096];
-    for (ssize_t n = 1; n > 0 && text.size() < 65536;) {
-        n = ::read(fd, block, sizeof block);
-        if (n < 0) {
-            throw Error(ExitCode::no_input, "passphrase descriptor " + std::to_string(fd) + ": " +
-                                                std::strerror(errno));
-        }
-        text.append(block, static_cast<std::size_t>(n));
+    for (;;) {
+        const ssize_t n = ::read(fd, block, sizeof block);
+        if (n == 0) return text;
+        if (n < 0 && errno != EINTR)
+            throw Error(ExitCode::no_input, name + ": " + std::strerror(errno));
+        if (n > 0) text.append(block, static_cast<std::size_t>(n));
+        if (text.size() > 1U << 20) throw ConfigError(name + ": longer than 1 MiB");
     }
-    return text;
+}
+
+/// The same of a file.
+inline std::string file_text(const std::string& path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) throw Error(ExitCode::no_input, path + ": " + std::strerror(errno));
+    const std::unique_ptr<const int, void (*)(const int*)> closer(
+        &fd, [](const int* f) { ::close(*f); });
+    return descriptor_text(fd, path);
 }
 
 /// From the file, the descriptor, or the file that SEAUTILS_PASSPHRASE_FILE names; without the line
@@ -97,7 +102,8 @@ inline std::optional<std::string> DcclOptions::passphrase() const {
     if (!passphrase_file.empty()) {
         text = file_text(passphrase_file);
     } else if (passphrase_fd >= 0) {
-        text = descriptor_text(passphrase_fd);
+        text = descriptor_text(passphrase_fd,
+                               "passphrase descriptor " + std::to_string(passphrase_fd));
     } else if (named != nullptr && *named != '\0') {
         text = file_text(named);
     } else {
@@ -106,7 +112,21 @@ inline std::optional<std::string> DcclOptions::passphrase() const {
     if (text.ends_with('\n')) text.pop_back();
     if (text.ends_with('\r')) text.pop_back();
     if (text.empty()) throw ConfigError("the passphrase is empty");
+    if (text.size() > 65536) throw ConfigError("the passphrase is longer than 65536 bytes");
     return text;
+}
+
+/// What messages of DCCL 1 cannot do is refused before anything is read.
+/// @throws Error(usage)
+inline void DcclOptions::check_legacy(const dccl::TypeSet& types, const cli::Io& io) const {
+    if (types.types().empty() || types.types()[0].legacy == nullptr) return;
+    const auto usage = [](const std::string& what) { throw Error(ExitCode::usage, what); };
+    if (io.input_format == "raw" || io.format == "raw")
+        usage("frames of DCCL 1 do not say where they end: raw cannot hold them");
+    if (header_only) usage("option --header-only is not for messages of DCCL 1");
+    if (id_codec != "default") usage("option --id-codec is not for messages of DCCL 1");
+    if (!arithmetic_models.empty())
+        usage("option --arithmetic-model is not for messages of DCCL 1");
 }
 
 inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
@@ -128,6 +148,7 @@ inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
     }
     dccl::TypeSet types(io.schemas, io.messages, program, std::move(codec),
                         keep_collisions ? dccl::Collisions::keep : dccl::Collisions::refuse);
+    check_legacy(types, io);
     for (const auto& [name, reason] : types.left_out()) io.warn("left out: " + reason);
     for (const std::string& tag : types.ignored_tags())
         io.inform("tag <" + tag + "> means nothing here");

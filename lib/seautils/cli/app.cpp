@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <new>
 
@@ -37,6 +38,8 @@ struct App::Impl {
     void add_stream();
     void parse(int argc, char** argv);
     void apply_config(int argc, char** argv);
+    void check_values();
+    [[noreturn]] void config_fault(const std::string& what) const;
     void settle();
     void check_format(const char* option, const std::string& name,
                       const std::vector<std::string>& known) const;
@@ -60,7 +63,37 @@ void fill_standard_descriptors() {
     }
 }
 
+/// CLI11 wants what is wrong, or nothing.
+std::string is_record_size(const std::string& text) {
+    std::uint64_t bytes = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    if (whole && bytes >= 1 && bytes <= (1U << 24)) return {};
+    return quote(text) + " is outside 1 to 16777216 bytes";
+}
+
+/// Whether the command line says it, or the contrary.
+bool is_given(const CLI::Option& option) {
+    const auto excluded = option.get_excludes();
+    return option.count() > 0 ||
+           std::any_of(excluded.begin(), excluded.end(),
+                       [](const CLI::Option* other) { return other->count() > 0; });
+}
+
 [[noreturn]] void usage(const std::string& what) { throw Error(ExitCode::usage, what); }
+
+/// A variable of the shell that is not set gives an empty value: nobody means that.
+[[noreturn]] void empty_value(std::string_view name) {
+    usage(fmt::format("option {}: the value is empty", name));
+}
+
+void check_not_empty(const CLI::Option& option) {
+    if (option.get_items_expected_max() == 0) return;
+    for (const std::string& value : option.results()) {
+        if (value.empty() && option.get_lnames().empty()) usage("the name of a FILE is empty");
+        if (value.empty()) empty_value("--" + option.get_lnames().front());
+    }
+}
 
 int status_of(ExitCode code) { return static_cast<int>(code); }
 
@@ -115,7 +148,7 @@ void App::Impl::add_stream() {
     app.add_flag("--strict", settings.strict, "Stop at the first bad record");
     app.add_option("--max-record", settings.max_record, "Refuse a longer record (1048576)")
         ->option_text("BYTES")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 24));
+        ->check(is_record_size);
     app.add_flag("--follow", settings.follow,
                  "At the end of FILE wait for more; open it again when it is replaced");
     progress = app.add_flag("--progress,!--no-progress", show_progress,
@@ -142,6 +175,12 @@ void App::output_formats(std::vector<std::string> names) {
 }
 
 void App::Impl::parse(int argc, char** argv) {
+    // CLI11 would take the word behind `--name=` for the value.
+    for (int k = 1; k < argc && argv[k] != std::string_view("--"); ++k) {
+        const std::string_view word = argv[k];
+        if (word.starts_with("--") && word.find('=') == word.size() - 1)
+            empty_value(word.substr(0, word.size() - 1));
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -159,16 +198,37 @@ void App::Impl::apply_config(int argc, char** argv) {
     const std::vector<ConfigOption> known = config_options(app);
     std::vector<std::string> words;
     for (const auto& [key, values] : read_config(configs, known)) {
-        if (app.get_option("--" + key)->count() > 0) continue;
-        for (const std::string& value : values) words.push_back("--" + key + "=" + value);
+        if (is_given(*app.get_option("--" + key))) continue;
+        for (const std::string& value : values) {
+            if (value.empty()) config_fault("option --" + key + ": the value is empty");
+            words.push_back("--" + key + "=" + value);
+        }
     }
     for (int k = 1; k < argc; ++k) words.emplace_back(argv[k]);
     std::reverse(words.begin(), words.end());  // as CLI11 wants them
     try {
         app.parse(words);
     } catch (const CLI::ParseError& e) {
-        throw ConfigError(joined(configs) + ": " + parse_fault(app, e));
+        config_fault(parse_fault(app, e));
     }
+    try {
+        check_values();
+    } catch (const Error& e) {
+        config_fault(e.what());
+    }
+}
+
+/// The command line alone was sound: `what` is the fault of a file.
+void App::Impl::config_fault(const std::string& what) const {
+    std::string place;
+    for (const ConfigOption& option : config_options(app)) {
+        const std::size_t at = what.find("--" + option.key);
+        const std::size_t end = at + option.key.size() + 2;
+        if (at == what.npos || what.find_first_of(" :", end) != end) continue;
+        place = config_place(configs, option.key);
+        if (!place.empty()) break;
+    }
+    throw ConfigError((place.empty() ? joined(configs) + ": " : place) + what);
 }
 
 void App::Impl::check_format(const char* option, const std::string& name,
@@ -177,25 +237,29 @@ void App::Impl::check_format(const char* option, const std::string& name,
     usage(fmt::format("option {}: {} is none of {}", option, quote(name), joined(known)));
 }
 
-/// Checks what was parsed, and turns it into settings.
-void App::Impl::settle() {
+/// Checks the values of shared options, from the command line and then with the files' too.
+void App::Impl::check_values() {
+    for (const CLI::Option* option : app.get_options()) check_not_empty(*option);
     if (color != "auto" && color != "always" && color != "never") {
         usage("option --color: " + quote(color) + " is none of auto, always, never");
     }
-    messages.set_color(color);
     check_format("--input-format", settings.input_format, input_formats);
     check_format("--format", settings.format, output_formats);
+    if (time.empty()) return;
+    try {
+        settings.time_us = parse_utc(time);
+    } catch (const DataError& e) {
+        usage(std::string("option --time: ") + e.what());
+    }
+}
+
+/// Turns what was parsed into settings.
+void App::Impl::settle() {
+    messages.set_color(color);
     settings.verbosity = quiet ? -1 : verbose ? 1 : 0;
     if (progress != nullptr && progress->count() > 0) settings.progress = show_progress;
     if (shared.schema && settings.schemas.empty())
         usage("option --schema is required (try --help)");
-    if (!time.empty()) {
-        try {
-            settings.time_us = parse_utc(time);
-        } catch (const DataError& e) {
-            usage(std::string("option --time: ") + e.what());
-        }
-    }
     const bool binary = settings.format == "delimited" || settings.format == "raw";
     if (binary && ::isatty(STDOUT_FILENO) == 1) {
         usage(fmt::format("format {} is binary and not written to a terminal", settings.format));
@@ -235,6 +299,7 @@ int App::main(int argc, char** argv, const std::function<void(Io&)>& body) {
             a.parse(argc, argv);
             if (a.print_config)
                 return print(example_config(a.app.get_name(), config_options(a.app)));
+            a.check_values();
             a.apply_config(argc, argv);
         } catch (const CLI::CallForHelp&) {
             return print(help_text(a.app, a.examples));

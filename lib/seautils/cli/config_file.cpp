@@ -109,6 +109,14 @@ std::map<std::string, std::vector<std::string>> read_config(
     return values;
 }
 
+std::string config_place(const std::vector<std::string>& files, const std::string& key) {
+    for (const std::string& file : files) {
+        const std::size_t line = line_of(file_text(file), key);
+        if (line != 0) return fmt::format("{}:{}: ", file, line);
+    }
+    return {};
+}
+
 std::string example_config(const std::string& tool, const std::vector<ConfigOption>& options) {
     std::string text = fmt::format(
         "# Configuration of {}: the options of its command line, which win over this file.\n",

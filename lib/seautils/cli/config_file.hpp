@@ -32,6 +32,10 @@ std::map<std::string, std::vector<std::string>> read_config(
 std::map<std::string, std::vector<std::string>> parse_config(
     const std::string& name, const std::string& text, const std::vector<ConfigOption>& options);
 
+/// Where a key is set, for messages: `FILE:LINE: ` of the first file that does; empty where none does.
+/// @throws Error  no_input: cannot be opened
+std::string config_place(const std::vector<std::string>& files, const std::string& key);
+
 /// A file with each option, its description, and its default, all in comments.
 std::string example_config(const std::string& tool, const std::vector<ConfigOption>& options);
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace seautils::cli {
 
@@ -60,13 +59,42 @@ std::string option_line(const CLI::Option& option) {
     return line + wrapped(option.get_description(), text_column) + '\n';
 }
 
-std::string lower_first(std::string text) {
+/// A sentence of CLI11 in one line, without its capital and its stop.
+std::string tamed(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-    if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0) {
-        text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    return lower_first(std::move(text));
+}
+
+/// The long option that CLI11's sentence speaks of, with its dashes.
+std::string option_in(const std::string& text) {
+    const std::size_t begin = text.find("--");
+    if (begin == text.npos) return {};
+    return text.substr(begin, std::min(text.find_first_of(" :", begin), text.size()) - begin);
+}
+
+/// What CLI11 has against the value of an option, in the words of the house.
+std::string value_fault(const CLI::App& app, const CLI::ParseError& error) {
+    const std::string text = error.what();
+    const std::string name = option_in(text);
+    const CLI::Option* option = name.empty() ? nullptr : app.get_option_no_throw(name);
+    if (option == nullptr) return tamed(text);
+    if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+        const std::size_t equals = text.find(" = ");
+        const std::string value = equals == text.npos ? "" : quote(text.substr(equals + 3)) + " ";
+        return "option " + name + ": " + value +
+               (option->get_items_expected_max() == 0 ? "is neither true nor false"
+                                                      : "is no whole number, or one too large");
     }
-    return text;
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+        if (text.find("missing") == text.npos) return "option " + name + " is given twice";
+        return "option " + name + " lacks its value (" + value_name(*option) + ")";
+    }
+    if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr) {
+        return "options " + name + " and " + option_in(text.substr(text.find(name) + 2)) +
+               " exclude each other";
+    }
+    return "option " + tamed(text);
 }
 
 bool is_positional(const CLI::Option& option) {
@@ -105,7 +133,7 @@ std::string parse_fault(const CLI::App& app, const CLI::ParseError& error) {
     if (!app.remaining().empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         return "argument " + quote(app.remaining().front()) + " is one too many (try --help)";
     }
-    return lower_first(error.what()) + " (try --help)";
+    return value_fault(app, error);
 }
 
 std::vector<ConfigOption> config_options(const CLI::App& app) {

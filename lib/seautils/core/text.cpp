@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <numeric>
 
@@ -46,6 +47,13 @@ std::size_t edits(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::string lower_first(std::string sentence) {
+    const auto letter = [&](std::size_t k) { return static_cast<unsigned char>(sentence[k]); };
+    if (sentence.size() > 1 && std::islower(letter(1)) != 0)
+        sentence[0] = static_cast<char>(std::tolower(letter(0)));
+    return sentence;
+}
 
 std::size_t utf8_length(std::string_view text) {
     if (text.empty()) return 0;

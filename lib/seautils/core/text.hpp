@@ -12,6 +12,10 @@ namespace seautils {
 /// UTF-8 as \xNN, cut after 60 bytes with "…".
 std::string quote(std::string_view value);
 
+/// A library's sentence in the middle of ours: without its capital, unless it stands in a word that
+/// is all capitals.
+std::string lower_first(std::string sentence);
+
 /// Bytes of the UTF-8 character that `text` begins with, 1 to 4; 0 where it begins with none
 /// (overlong forms, surrogates and numbers above U+10FFFF are none).
 std::size_t utf8_length(std::string_view text);

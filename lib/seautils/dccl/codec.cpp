@@ -15,7 +15,8 @@ struct Identifier {
 };
 
 [[noreturn]] void too_short(std::size_t wanted, std::size_t given) {
-    throw Truncated(fmt::format("the identifier takes {} bytes where {} are left", wanted, given));
+    throw Truncated(fmt::format("the identifier takes {} byte{} where {} {} left", wanted,
+                                wanted == 1 ? "" : "s", given, given == 1 ? "is" : "are"));
 }
 
 /// @param ccl  whether frames begin with a CCL identifier

@@ -346,6 +346,28 @@ private:
     int depth_ = 0;
 };
 
+/// What simdjson found, in words that speak of the record.
+const char* fault(simdjson::error_code code) {
+    switch (code) {
+        case simdjson::EMPTY:
+            return "there is nothing but white space";
+        case simdjson::UTF8_ERROR:
+            return "it is not UTF-8";
+        case simdjson::UNCLOSED_STRING:
+            return "a string does not end";
+        case simdjson::STRING_ERROR:
+            return "a string holds an escape that is none";
+        case simdjson::UNESCAPED_CHARS:
+            return "a string holds a control character";
+        case simdjson::NUMBER_ERROR:
+            return "a number is not well formed";
+        case simdjson::INCOMPLETE_ARRAY_OR_OBJECT:
+            return "the last bracket is missing, or something follows it";
+        default:
+            return "a bracket, colon, comma or value is missing, or stands where none may";
+    }
+}
+
 }  // namespace
 
 struct JsonReader::Impl {
@@ -363,13 +385,8 @@ struct JsonReader::Impl {
     }
 
     [[noreturn]] void refuse(const simdjson::simdjson_error& error, const std::string& path) const {
-        std::string what = simdjson::error_message(error.error());
-        const std::size_t end = what.find_first_of(".:(");
-        what = what.substr(0, end);
-        for (char& c : what) c = c == '\n' ? ' ' : c;
-        if (!what.empty())
-            what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
-        throw DataError("not valid JSON" + (path.empty() ? "" : " at " + path) + ": " + what);
+        throw DataError("not valid JSON" + (path.empty() ? "" : " at " + path) + ": " +
+                        fault(error.error()));
     }
 };
 
@@ -382,8 +399,10 @@ std::string JsonReader::type_of(std::string_view json) {
     try {
         sj::document document = impl_->open(json);
         std::string_view type;
-        if (document.get_object().find_field_unordered("@type").get(type) != simdjson::SUCCESS)
+        sj::value value;
+        if (document.get_object().find_field_unordered("@type").get(value) != simdjson::SUCCESS)
             return {};
+        if (value.get(type) != simdjson::SUCCESS) throw DataError("@type is not a string");
         return std::string(type.substr(type.rfind('/') + 1));
     } catch (const simdjson::simdjson_error& error) {
         impl_->refuse(error, {});

@@ -1,6 +1,7 @@
 #include "seautils/schema/message.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/io/tokenizer.h>
@@ -235,7 +236,7 @@ public:
             what = line > 0 ? "line " + std::to_string(line + 1) + " " : "";
             what += "column " + std::to_string(column + 1) + ": ";
         }
-        what += text;
+        what += lower_first(std::move(text));
     }
     std::string what;
 };

@@ -57,7 +57,7 @@ private:
     static std::string one_line(std::string text) {
         std::replace(text.begin(), text.end(), '\n', ' ');
         while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
-        return text;
+        return lower_first(std::move(text));
     }
 
     const SourceTree& tree_;
@@ -128,6 +128,7 @@ struct Pool::Impl {
 
     void compile(const std::string& name) {
         faults.clear();
+        const google::protobuf::LogSilencer silence;  // it would print of a file without syntax
         const FileDescriptor* file = pool.FindFileByName(name);
         if (file == nullptr)
             throw ConfigError(faults.what().empty() ? name + ": not found" : faults.what());
