@@ -258,7 +258,7 @@ void Decoder::time(const Op& op, Slot& slot) {
     const double seconds = decode_float(op.number, raw);
     const std::int64_t today = floor_mod(codec_.options.now_s, code.period_s);
     std::int64_t start = codec_.options.now_s - today;
-    const auto half = static_cast<double>(code.period_s / 2);
+    const double half = static_cast<double>(code.period_s) / 2;
     if (seconds - static_cast<double>(today) > half)
         start -= code.period_s;
     else if (static_cast<double>(today) - seconds > half)

@@ -238,7 +238,7 @@ std::uint64_t plain_block(const schema::Values& values, const schema::Layout& la
                     break;
                 case Kind::string:
                 case Kind::bytes:
-                    bytes += (one.aux + 3U) / 4 * 4;
+                    bytes += (one.aux + 3ULL) / 4 * 4;
                     break;
                 case Kind::int64:
                 case Kind::uint64:
