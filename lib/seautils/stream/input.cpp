@@ -37,9 +37,12 @@ Input::~Input() {
     if (fd_ > 2) ::close(fd_);
 }
 
-/// Reads more behind what is held; false at the end.
+/// Reads more behind what is held; false at the end, also at that of a file that was replaced while
+/// a piece of it was held: the next call reads on in its successor.
 bool Input::fill() {
     if (ended_) return false;
+    if (replaced_) count_ = next_offset_ = 0;
+    replaced_ = false;
     if (begin_ > 0 && buffer_.size() - padding_bytes - end_ < block_bytes) {
         std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
         end_ -= begin_;
@@ -48,7 +51,7 @@ bool Input::fill() {
     if (buffer_.size() - padding_bytes - end_ < block_bytes) buffer_.resize(2 * buffer_.size());
     std::size_t got = 0;
     if (!read_some(buffer_.data() + end_, buffer_.size() - padding_bytes - end_, got)) {
-        ended_ = true;
+        ended_ = !replaced_;
         return false;
     }
     end_ += got;
@@ -65,7 +68,7 @@ bool Input::read_some(char* to, std::size_t room, std::size_t& got) {
             return true;
         }
         if (n == 0) {
-            if (!options_.follow || !wait_for_more()) return false;
+            if (!options_.follow || !wait_for_more() || replaced_) return false;
         } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
             pollfd ready{fd_, POLLIN, 0};
             ::poll(&ready, 1, -1);
@@ -83,18 +86,29 @@ bool Input::wait_for_more() {
     ::nanosleep(&pause, nullptr);
     struct stat open {};
     struct stat named {};
+    const bool is_named = ::stat(path_.c_str(), &named) == 0;
     if (path_.empty() || ::fstat(fd_, &open) != 0 || !S_ISREG(open.st_mode)) return !path_.empty();
-    if (::stat(path_.c_str(), &named) == 0 &&
-        (named.st_ino != open.st_ino || named.st_dev != open.st_dev)) {
+    const off_t at = ::lseek(fd_, 0, SEEK_CUR);
+    if (at < open.st_size) return true;  // the last words of a file that may be replaced already
+    if (is_named && (named.st_ino != open.st_ino || named.st_dev != open.st_dev)) {
         const int fd = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-        if (fd >= 0) {
-            ::close(fd_);
-            fd_ = fd;
-        }
-    } else if (::lseek(fd_, 0, SEEK_CUR) > open.st_size) {
+        if (fd < 0) return true;
+        ::close(fd_);
+        fd_ = fd;
+        begin_again();
+    } else if (at > open.st_size) {
         ::lseek(fd_, 0, SEEK_SET);
+        begin_again();
     }
     return true;
+}
+
+/// What is held of the old file, a line without its end perhaps, is not joined to the new one.
+void Input::begin_again() {
+    if (begin_ == end_)
+        count_ = next_offset_ = 0;
+    else
+        replaced_ = true;
 }
 
 Input::Got Input::line(std::string_view& line) {
@@ -103,7 +117,7 @@ Input::Got Input::line(std::string_view& line) {
         const void* found = searched_ < bytes.size() ? std::memchr(bytes.data() + searched_, '\n',
                                                                    bytes.size() - searched_)
                                                      : nullptr;
-        const bool last = found == nullptr && ended_;
+        const bool last = found == nullptr && (ended_ || (replaced_ && !bytes.empty()));
         if (last && bytes.empty()) return Got::end;
         if (found != nullptr || last) {
             const std::size_t length =
@@ -149,7 +163,10 @@ Input::Got Input::record(std::string_view& record) {
     std::size_t at = 0;
     for (unsigned shift = 0;; shift += 7) {
         while (at == held().size()) {
-            if (fill()) continue;
+            if (fill()) {
+                if (at == 0) offset_ = next_offset_;
+                continue;
+            }
             if (at == 0) return Got::end;
             ++count_;
             throw Error(ExitCode::data, "the stream ends within the length of a record");

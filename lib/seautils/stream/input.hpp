@@ -46,7 +46,8 @@ public:
     void consume(std::size_t bytes);
     bool full() const { return end_ - begin_ >= options_.max_record; }
 
-    /// Lines or records given out (a skipped one counts), and the byte at which the last began.
+    /// Lines or records given out (a skipped one counts), and the byte at which the last began; from
+    /// the beginning again where the file was replaced.
     std::uint64_t count() const { return count_; }
     std::uint64_t offset() const { return offset_; }
     /// Bytes read in all.
@@ -56,6 +57,7 @@ private:
     bool fill();
     bool read_some(char* to, std::size_t room, std::size_t& got);
     bool wait_for_more();
+    void begin_again();
     void skip_line();
     std::string_view held() const { return {buffer_.data() + begin_, end_ - begin_}; }
 
@@ -67,6 +69,7 @@ private:
     std::size_t searched_ = 0;  ///< bytes of held() known to have no line end
     std::uint64_t count_ = 0, offset_ = 0, next_offset_ = 0, bytes_read_ = 0;
     bool ended_ = false;
+    bool replaced_ = false;  ///< the file that what is held came from has ended, another follows
 };
 
 }  // namespace seautils::stream
