@@ -18,10 +18,6 @@ using namespace seautils;
 
 namespace {
 
-std::string counted_bytes(std::size_t n) {
-    return std::to_string(n) + (n == 1 ? " byte" : " bytes");
-}
-
 class Tool {
 public:
     Tool(cli::Io& io, const tools::DcclOptions& options)
@@ -55,7 +51,7 @@ public:
             } catch (const DataError& e) {
                 if (rest.size() == bytes_.size()) throw;
                 if (options_.lenient) return;
-                throw DataError(counted_bytes(rest.size()) +
+                throw DataError(counted(rest.size(), "byte") +
                                 (rest.size() == 1 ? " is left over: " : " are left over: ") +
                                 e.what());
             }
@@ -100,8 +96,8 @@ private:
     }
 
     void skipped(std::uint64_t end) {
-        io_.refuse_at(lost_at_, counted_bytes(static_cast<std::size_t>(end - lost_at_)) +
-                                    " skipped: no message begins there");
+        io_.refuse_at(lost_at_,
+                      counted(end - lost_at_, "byte") + " skipped: no message begins there");
     }
 
     std::size_t message(std::string_view bytes) {

@@ -55,6 +55,15 @@ std::string lower_first(std::string sentence) {
     return sentence;
 }
 
+std::string counted(std::uint64_t n, std::string_view thing) {
+    return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
+
+std::string where_left(std::uint64_t wanted, std::string_view thing, std::uint64_t left) {
+    return fmt::format("{} where {} {} left", counted(wanted, thing), left,
+                       left == 1 ? "is" : "are");
+}
+
 std::size_t utf8_length(std::string_view text) {
     if (text.empty()) return 0;
     const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
@@ -133,7 +142,7 @@ std::string from_base64(std::string_view text) {
         digits.remove_suffix(1);
     const bool padded = digits.size() != given;
     if ((padded && given % 4 != 0) || digits.size() % 4 == 1) {
-        throw DataError(fmt::format("base64 of {} characters is cut short", given));
+        throw DataError("base64 of " + counted(given, "character") + " is cut short");
     }
     std::string bytes;
     bytes.reserve(digits.size() * 3 / 4);

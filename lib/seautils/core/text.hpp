@@ -2,6 +2,7 @@
 #define SEAUTILS_CORE_TEXT_HPP
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,12 @@ std::string quote(std::string_view value);
 /// A library's sentence in the middle of ours: without its capital, unless it stands in a word that
 /// is all capitals.
 std::string lower_first(std::string sentence);
+
+/// `1 byte`, `2 bytes`: a number with what it counts.
+std::string counted(std::uint64_t n, std::string_view thing);
+
+/// `6 bits where 0 are left`, `2 bytes where 1 is left`.
+std::string where_left(std::uint64_t wanted, std::string_view thing, std::uint64_t left);
 
 /// Bytes of the UTF-8 character that `text` begins with, 1 to 4; 0 where it begins with none
 /// (overlong forms, surrogates and numbers above U+10FFFF are none).

@@ -1,5 +1,6 @@
 #include "seautils/dccl/codec.hpp"
 
+#include "seautils/core/text.hpp"
 #include "seautils/dccl/codec_impl.hpp"
 
 #include <fmt/format.h>
@@ -15,8 +16,7 @@ struct Identifier {
 };
 
 [[noreturn]] void too_short(std::size_t wanted, std::size_t given) {
-    throw Truncated(fmt::format("the identifier takes {} byte{} where {} {} left", wanted,
-                                wanted == 1 ? "" : "s", given, given == 1 ? "is" : "are"));
+    throw Truncated("the identifier takes " + where_left(wanted, "byte", given));
 }
 
 /// @param ccl  whether frames begin with a CCL identifier

@@ -1,3 +1,4 @@
+#include "seautils/core/text.hpp"
 #include "seautils/dccl/codec_impl.hpp"
 #include "seautils/dccl/native.hpp"
 
@@ -76,8 +77,7 @@ void Decoder::range(std::size_t first, std::size_t last, const Frame& frame) {
         e.enter(name());
         throw;
     } catch (const OutOfBits& e) {
-        throw FieldError{name(), fmt::format("takes {} bits where {} are left", e.wanted, e.left),
-                         true};
+        throw FieldError{name(), "takes " + where_left(e.wanted, "bit", e.left), true};
     } catch (const DataError& e) {
         throw FieldError{name(), e.what()};
     }
@@ -145,8 +145,7 @@ void Decoder::repeated(const Op& op, std::size_t at, const Frame& frame) {
             e.enter(fmt::format("[{}]", k));
             throw;
         } catch (const OutOfBits& e) {
-            throw FieldError{fmt::format("[{}]", k),
-                             fmt::format("takes {} bits where {} are left", e.wanted, e.left),
+            throw FieldError{fmt::format("[{}]", k), "takes " + where_left(e.wanted, "bit", e.left),
                              true};
         }
     }

@@ -139,12 +139,12 @@ void Encoder::repeated(const Op& op, std::size_t at, const Frame& frame) {
     const Slot& list = values_[frame.block + op.slot];
     const std::uint32_t given = list.present ? list.aux : 0;
     if (!codec_.options.lenient && given > op.max_repeat) {
-        throw FieldError{
-            "", fmt::format("has {} elements, more than max_repeat {}", given, op.max_repeat)};
+        throw FieldError{"", fmt::format("has {}, more than max_repeat {}",
+                                         counted(given, "element"), op.max_repeat)};
     }
     if (!codec_.options.lenient && given < op.min_repeat) {
-        throw FieldError{
-            "", fmt::format("has {} elements, fewer than min_repeat {}", given, op.min_repeat)};
+        throw FieldError{"", fmt::format("has {}, fewer than min_repeat {}",
+                                         counted(given, "element"), op.min_repeat)};
     }
     std::uint32_t count = op.max_repeat;
     if (op.counted) {
@@ -358,8 +358,8 @@ void Encoder::arithmetic(const Op& op, const Frame& frame) {
     if (!slot.present) count = 0;
     if (op.repeated && !codec_.options.lenient &&
         (count > op.max_repeat || count < op.min_repeat)) {
-        throw FieldError{
-            "", fmt::format("has {} elements, not {} to {}", count, op.min_repeat, op.max_repeat)};
+        throw FieldError{"", fmt::format("has {}, not {} to {}", counted(count, "element"),
+                                         op.min_repeat, op.max_repeat)};
     }
     count = std::min(count, op.max_repeat);
     const std::uint32_t first =

@@ -148,7 +148,7 @@ void LegacyEncoder::field(const LegacyField& f, const Slot& slot) {
     if (f.array_length == 1) return element(f, slot.present ? &slot : nullptr, true);
     const std::uint32_t given = slot.present ? slot.aux : 0;
     if (given > f.array_length)
-        refused(fmt::format("has {} elements, more than {}", given, f.array_length));
+        refused(fmt::format("has {}, more than {}", counted(given, "element"), f.array_length));
     const auto at = [&](std::uint32_t k) -> const Slot* {
         const Slot* one = k < given ? &values_[static_cast<std::uint32_t>(slot.u) + k] : nullptr;
         return one != nullptr && one->present ? one : nullptr;
@@ -310,7 +310,7 @@ void LegacyDecoder::head(std::string_view bytes) {
 void LegacyDecoder::body(std::string_view bytes) {
     const std::uint64_t most = (message_.body_bits() + 7) / 8;
     if (bytes.size() > most)
-        refused(fmt::format("has a body of {} bytes, more than {}", bytes.size(), most));
+        refused(fmt::format("has a body of {}, more than {}", counted(bytes.size(), "byte"), most));
     MsbReader in(bytes);
     if (in.get(static_cast<unsigned>((8 - message_.body_bits() % 8) % 8)) != 0) {
         refused("has bits where its body is filled up with zeros");
@@ -404,8 +404,7 @@ void LegacyDecoder::text(const LegacyField& f, std::uint32_t slot, MsbReader& in
 
 std::int32_t legacy_id(std::string_view bytes) {
     if (bytes.size() < header_bytes) {
-        throw Truncated(
-            fmt::format("the header takes {} bytes where {} are left", header_bytes, bytes.size()));
+        throw Truncated("the header takes " + where_left(header_bytes, "byte", bytes.size()));
     }
     MsbReader in(bytes);
     const std::uint64_t ccl = in.get(8);

@@ -31,7 +31,7 @@ std::uint8_t value_of(char c) { return digit_values[static_cast<unsigned char>(c
                             std::to_string(skipped + k + 1) + " is no hexadecimal digit");
         }
     }
-    throw DataError(std::to_string(text.size()) + " hexadecimal digits are half a byte too few");
+    throw DataError("an odd number of hexadecimal digits, " + std::to_string(text.size()));
 }
 
 }  // namespace

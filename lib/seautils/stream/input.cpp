@@ -1,6 +1,7 @@
 #include "seautils/stream/input.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -181,15 +182,14 @@ Input::Got Input::record(std::string_view& record) {
     }
     ++count_;
     if (length > options_.max_record) {
-        throw Error(ExitCode::data, "record of " + std::to_string(length) +
-                                        " bytes is longer than " +
+        throw Error(ExitCode::data, "record of " + counted(length, "byte") + " is longer than " +
                                         std::to_string(options_.max_record) + " (--max-record)");
     }
     while (held().size() - at < length) {
         if (!fill()) {
-            throw Error(ExitCode::data,
-                        "the stream ends after " + std::to_string(held().size() - at) +
-                            " of the record's " + std::to_string(length) + " bytes");
+            throw Error(ExitCode::data, "the stream ends after " +
+                                            std::to_string(held().size() - at) +
+                                            " of the record's " + counted(length, "byte"));
         }
     }
     record = held().substr(at, length);
