@@ -29,6 +29,8 @@ struct Io::Impl {
     int open_descriptor(const std::string& file);
     void refuse(const std::string& place, const std::string& what);
     std::string place(Framing framing) const;
+    template <class Read>
+    auto located(Framing framing, Read read);
     bool next(Framing framing, std::string_view& record);
     void follow_progress() {
         if (progress) progress->update(input->bytes_read());
@@ -85,10 +87,25 @@ std::string Io::Impl::place(Framing framing) const {
     return fmt::format("{}:record {} (byte {}): ", name, input->count(), input->offset());
 }
 
+/// Does what reads the input, and says where it was when that fails.
+template <class Read>
+auto Io::Impl::located(Framing framing, Read read) {
+    try {
+        return read();
+    } catch (const Error& e) {
+        if (e.code() == ExitCode::data) throw Error(e.code(), place(framing) + e.what());
+        const bool failed = std::string_view(e.what()).starts_with("read failed");
+        if (e.code() == ExitCode::io && failed) throw Error(e.code(), name + ": " + e.what());
+        throw;
+    }
+}
+
 bool Io::Impl::next(Framing framing, std::string_view& record) {
     using Got = stream::Input::Got;
     for (;;) {
-        const Got got = framing == Framing::lines ? input->line(record) : input->record(record);
+        const Got got = located(framing, [&] {
+            return framing == Framing::lines ? input->line(record) : input->record(record);
+        });
         if (got != Got::too_long) return got == Got::record;
         refuse(place(framing),
                fmt::format("longer than {} bytes (--max-record)", settings.max_record));
@@ -107,26 +124,14 @@ void Io::for_each(Framing framing, const std::function<void(std::string_view rec
     for (const std::string& file : files.empty() ? standard_input : files) {
         impl_->open(file, framing == Framing::lines);
         std::string_view bytes;
-        try {
-            while (impl_->next(framing, bytes)) {
-                if (bytes.empty() && framing == Framing::lines) continue;
-                try {
-                    record(bytes);
-                } catch (const DataError& e) {
-                    impl_->refuse(impl_->place(framing), e.what());
-                }
-                if ((impl_->input->count() & 1023) == 0) impl_->follow_progress();
+        while (impl_->next(framing, bytes)) {
+            if (bytes.empty() && framing == Framing::lines) continue;
+            try {
+                record(bytes);
+            } catch (const DataError& e) {
+                impl_->refuse(impl_->place(framing), e.what());
             }
-        } catch (const DataError&) {
-            throw;
-        } catch (const Error& e) {
-            const bool framed =
-                framing == Framing::delimited && e.code() == ExitCode::data && !strict;
-            const bool read =
-                e.code() == ExitCode::io && std::string_view(e.what()).starts_with("read failed");
-            if (framed) throw Error(e.code(), impl_->place(framing) + e.what());
-            if (read) throw Error(e.code(), impl_->name + ": " + e.what());
-            throw;
+            if ((impl_->input->count() & 1023) == 0) impl_->follow_progress();
         }
     }
 }
@@ -136,7 +141,8 @@ void Io::for_each_block(const Block& block) {
     for (const std::string& file : files.empty() ? standard_input : files) {
         impl_->open(file, false);
         for (bool ended = false; !ended;) {
-            const std::string_view bytes = impl_->input->block(ended);
+            const std::string_view bytes =
+                impl_->located(Framing::delimited, [&] { return impl_->input->block(ended); });
             const std::size_t used = block(bytes, impl_->input->offset(), ended);
             if (used == 0 && impl_->input->full()) {
                 stop_at(impl_->input->offset(),

@@ -74,6 +74,16 @@ void check_required(const schema::Layout& layout, const schema::Values& values,
     }
 }
 
+/// With --header-only what the body requires may be missing, but not what the header does.
+void check_required_head(const Program& program, const schema::Values& values) {
+    const std::vector<Op>& ops = program.head();
+    for (std::size_t at = 0; at < ops.size(); at = ops[at].end) {
+        const schema::Field* f = ops[at].field;
+        if (f == nullptr || !f->required || f->kind == schema::Kind::message) continue;
+        if (!values[ops[at].slot].present) throw FieldError{f->name, "is required and not given"};
+    }
+}
+
 /// Puts adaptive models back where they were unless the message went through.
 class Learning {
 public:
@@ -145,7 +155,10 @@ void Codec::encode(const Program& program, const schema::Values& values, std::st
     const std::size_t start = out.size();
     Learning learning(program, c.encoder_counts);
     try {
-        if (!c.options.header_only) check_required(program.layout(), values, 0);
+        if (!c.options.header_only)
+            check_required(program.layout(), values, 0);
+        else if (!c.options.lenient)
+            check_required_head(program, values);
         Encoder encoder(c, program, values);
         c.writer.reset();
         c.writer.put(program.id_code(), program.id_bits());

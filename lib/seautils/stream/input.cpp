@@ -183,7 +183,7 @@ Input::Got Input::record(std::string_view& record) {
     ++count_;
     if (length > options_.max_record) {
         throw Error(ExitCode::data, "record of " + counted(length, "byte") + " is longer than " +
-                                        std::to_string(options_.max_record) + " (--max-record)");
+                                        counted(options_.max_record, "byte") + " (--max-record)");
     }
     while (held().size() - at < length) {
         if (!fill()) {
