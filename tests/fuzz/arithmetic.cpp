@@ -29,6 +29,13 @@ entropy::Model model_of(const std::uint8_t* data) {
 
 struct Ended {};
 
+template <class List>
+std::string listed(const char* what, const List& list) {
+    std::string text = what;
+    for (const auto x : list) text += " " + std::to_string(x);
+    return text + "\n";
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -65,6 +72,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::size_t read = 0;
     const auto get = [&] { return read < out.size() ? out[read++] : (++read, true); };
     entropy::decode_run(model, decoder, max_count, get, again);
+    fuzz::context = listed("given", values) + listed("got", again) + listed("weights", model.frequency) +
+                    listed("bounds", model.value_bound);
+    // The format takes the nearer of two bounds by the squares: 1 stands for -1 where both are bounds.
+    for (double& x : values) x = entropy::value_of(model, entropy::coded_symbol(model, x, false));
     fuzz::require(again == values, "values come back");
     fuzz::require(read <= out.size(), "no bit is read that was not written");
     return 0;

@@ -27,6 +27,7 @@ inline void require(bool holds, const char* law) {
 /// What a person reads of a refusal: one line of UTF-8, not endless.
 inline void check_message(const std::exception& e) {
     const std::string_view what = e.what();
+    context = what;
     require(!what.empty() && what.size() < 2000, "a message is short");
     require(what.find('\n') == what.npos, "a message is one line");
     require(seautils::is_valid_utf8(what), "a message is UTF-8");

@@ -101,6 +101,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (dccl::Codec* c : {&encoder, &decoder, &last}) c->load(program);
     if (!fuzz::accepted([&] { encoder.encode(*program, values, canonical); })) return 0;
     fuzz::require(canonical.size() <= program->largest_bytes(), "no frame is above the largest");
+    // The lenient way unsets what is out of range, and the decoder's conditions see that.
+    if (options.lenient && program->has_conditions()) return 0;
     fuzz::require(decoder.decode(canonical, again, program.get()).bytes == canonical.size(),
                   "a frame is taken whole");
     json.clear();

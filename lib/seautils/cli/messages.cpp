@@ -1,6 +1,9 @@
 #include "seautils/cli/messages.hpp"
 
+#include "seautils/core/text.hpp"
+
 #include <fmt/format.h>
+
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,18 +29,6 @@ bool wants_color() {
     return ::isatty(STDERR_FILENO) == 1 && term != nullptr && std::string_view(term) != "dumb";
 }
 
-std::string one_line(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7f)
-            out += fmt::format("\\x{:02x}", byte);
-        else
-            out += c;
-    }
-    return out;
-}
-
 }  // namespace
 
 Messages::Messages(std::string tool)
@@ -51,7 +42,7 @@ void Messages::write(Level level, const std::string& what) const {
     std::string line;
     if (journal_) line += level == Level::error ? "<3>" : level == Level::warning ? "<4>" : "<6>";
     if (color_ && level == Level::error) line += "\033[31m";
-    line += tool_ + ": " + one_line(what);
+    line += tool_ + ": " + printable(what);
     if (color_ && level == Level::error) line += "\033[0m";
     line += '\n';
     // One write a line, so that the lines of several processes do not mix.

@@ -89,21 +89,37 @@ bool is_valid_utf8(std::string_view text) {
     return true;
 }
 
-std::string quote(std::string_view value) {
-    std::string out = "'";
+namespace {
+
+/// Appends the text as printable() says, up to the character that begins at or behind `most`; returns
+/// how many bytes of it that was.
+std::size_t append_printable(std::string& out, std::string_view text, std::size_t most) {
     std::size_t at = 0;
-    while (at < value.size() && at < longest_quote) {
-        const std::size_t length = utf8_length(value.substr(at));
-        const auto byte = static_cast<unsigned char>(value[at]);
+    while (at < text.size() && at < most) {
+        const std::size_t length = utf8_length(text.substr(at));
+        const auto byte = static_cast<unsigned char>(text[at]);
         if (length == 0 || byte < 0x20 || byte == 0x7f) {
             out += fmt::format("\\x{:02x}", byte);
             ++at;
         } else {
-            out += value.substr(at, length);
+            out += text.substr(at, length);
             at += length;
         }
     }
-    if (at < value.size()) out += "…";
+    return at;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+    std::string out;
+    append_printable(out, text, text.size());
+    return out;
+}
+
+std::string quote(std::string_view value) {
+    std::string out = "'";
+    if (append_printable(out, value, longest_quote) < value.size()) out += "…";
     return out + "'";
 }
 

@@ -9,8 +9,10 @@
 
 namespace seautils {
 
-/// A value as a message quotes it: in single quotes, control characters and bytes that are not
-/// UTF-8 as \xNN, cut after 60 bytes with "…".
+/// The text on one line of UTF-8: control characters, and bytes that are not UTF-8, as \xNN.
+std::string printable(std::string_view text);
+
+/// A value as a message quotes it: printable, in single quotes, cut after 60 bytes with "…".
 std::string quote(std::string_view value);
 
 /// A library's sentence in the middle of ours: without its capital, unless it stands in a word that

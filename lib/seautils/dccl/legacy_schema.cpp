@@ -87,6 +87,7 @@ private:
     std::uint32_t whole(const Node& node, const char* tag, std::uint32_t least,
                         std::uint32_t most) const;
     std::size_t line(std::ptrdiff_t offset) const;
+    void check_text(const Node& node, const std::string& text) const;
     [[noreturn]] void refuse(const Node& node, const std::string& what) const;
 
     LegacySchema& schema_;
@@ -114,7 +115,14 @@ std::string LegacyLoader::required(const Node& node, const char* tag) const {
     while (!text.empty() && blank(text.back())) text.pop_back();
     text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), blank));
     if (text.empty()) refuse(child, fmt::format("<{}> is empty", tag));
+    check_text(child, text);
     return text;
+}
+
+/// References to characters (&#1;) can say what is no text.
+void LegacyLoader::check_text(const Node& node, const std::string& text) const {
+    if (printable(text) == text) return;
+    refuse(node, fmt::format("<{}> {} has characters that are none", node.name(), quote(text)));
 }
 
 double LegacyLoader::real(const Node& node, const char* tag) const {
@@ -154,6 +162,9 @@ void LegacyLoader::file(const std::string& name, std::string_view xml) {
     const auto result = document.load_buffer(xml.data(), xml.size());
     if (!result) {
         throw ConfigError(fmt::format("{}:{}: not well-formed XML", name, line(result.offset)));
+    }
+    if (result.encoding == pugi::encoding_utf8 && !is_valid_utf8(xml)) {
+        throw ConfigError(name + ": not UTF-8 (say encoding=\"ISO-8859-1\" in its first line?)");
     }
     const Node root = document.child("message_set");
     if (!root) throw ConfigError(name + ":1: the root is not <message_set>");
@@ -265,7 +276,9 @@ LegacyField LegacyLoader::field(const Node& node) {
     if (tag == "enum" || tag == "static") {
         f.kind = tag == "enum" ? LegacyKind::enumeration : LegacyKind::fixed;
         required(node, "value");
-        for (const Node& value : node.children("value")) f.values.emplace_back(value.text().get());
+        for (const Node& value : node.children("value")) {
+            check_text(value, f.values.emplace_back(value.text().get()));
+        }
         const std::set<std::string> different(f.values.begin(), f.values.end());
         if (different.size() != f.values.size())
             refuse(node, fmt::format("field {} has a <value> twice", quote(f.name)));

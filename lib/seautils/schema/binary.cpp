@@ -194,7 +194,7 @@ private:
                 in.refuse("a string that is not UTF-8");
             return values_.set_text(slot, text);
         }
-        Slot& s = values_[slot];
+        Slot s = values_[slot];
         if (f.wire_form == WireForm::fixed64)
             s.u = in.get_fixed<8>();
         else if (f.wire_form == WireForm::fixed32)
@@ -204,7 +204,9 @@ private:
         const bool closed = f.kind == Kind::enumeration && !f.enumeration->open;
         const bool undeclared =
             closed && f.enumeration->find(static_cast<std::int32_t>(s.i)) == nullptr;
-        if (!undeclared) s.present = true;
+        if (undeclared) return;  // an unknown field, as for protobuf: what was there stays
+        s.present = true;
+        values_[slot] = s;
     }
 
     static void from_32(const Field& f, std::uint32_t bits, Slot& s) {

@@ -236,7 +236,7 @@ public:
             what = line > 0 ? "line " + std::to_string(line + 1) + " " : "";
             what += "column " + std::to_string(column + 1) + ": ";
         }
-        what += lower_first(std::move(text));
+        what += printable(lower_first(std::move(text)));
     }
     std::string what;
 };
