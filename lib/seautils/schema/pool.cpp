@@ -39,9 +39,9 @@ public:
                   const std::string& message) override {
         const std::string text = one_line(message);
         if (line < 0) {
-            if (unplaced_.empty()) unplaced_ = tree_.shown(file) + ": " + text;
+            if (unplaced_.empty()) unplaced_ = printable(tree_.shown(file)) + ": " + text;
         } else if (placed_.empty()) {
-            placed_ = tree_.shown(file) + ":" + std::to_string(line + 1) + ":" +
+            placed_ = printable(tree_.shown(file)) + ":" + std::to_string(line + 1) + ":" +
                       std::to_string(column + 1) + ": " + text;
         }
     }
