@@ -72,7 +72,7 @@ public:
                 const dccl::Found found = dccl::find_message(types_, bytes.substr(at), ended);
                 at += found.skipped;
                 lost_ = !found.synchronous;
-                if (lost_) return at;
+                if (lost_) break;
                 skipped(offset + at);
             } catch (const dccl::Truncated& e) {
                 if (!ended) return at;
