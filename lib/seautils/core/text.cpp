@@ -111,9 +111,9 @@ std::size_t append_printable(std::string& out, std::string_view text, std::size_
 
 }  // namespace
 
-std::string printable(std::string_view text) {
+std::string printable(std::string_view text, std::size_t most) {
     std::string out;
-    append_printable(out, text, text.size());
+    if (append_printable(out, text, most) < text.size()) out += "…";
     return out;
 }
 

@@ -9,8 +9,9 @@
 
 namespace seautils {
 
-/// The text on one line of UTF-8: control characters, and bytes that are not UTF-8, as \xNN.
-std::string printable(std::string_view text);
+/// The text on one line of UTF-8: control characters, and bytes that are not UTF-8, as \xNN; cut
+/// after `most` bytes with "…".
+std::string printable(std::string_view text, std::size_t most = std::string_view::npos);
 
 /// A value as a message quotes it: printable, in single quotes, cut after 60 bytes with "…".
 std::string quote(std::string_view value);

@@ -15,6 +15,8 @@ using google::protobuf::Message;
 using google::protobuf::Reflection;
 
 constexpr int max_depth = 32;
+/// Of what protobuf says, which may quote a whole record.
+constexpr std::size_t longest_fault = 300;
 
 /// A message's fields into slots.
 class Reader {
@@ -236,7 +238,7 @@ public:
             what = line > 0 ? "line " + std::to_string(line + 1) + " " : "";
             what += "column " + std::to_string(column + 1) + ": ";
         }
-        what += printable(lower_first(std::move(text)));
+        what += printable(lower_first(std::move(text)), longest_fault);
     }
     std::string what;
 };

@@ -57,7 +57,7 @@ private:
     static std::string one_line(std::string text) {
         std::replace(text.begin(), text.end(), '\n', ' ');
         while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
-        return printable(lower_first(std::move(text)));
+        return printable(lower_first(std::move(text)), 300);
     }
 
     const SourceTree& tree_;
