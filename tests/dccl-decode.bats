@@ -293,10 +293,19 @@ dccl-decode: in:byte 19: 1 byte skipped: no message begins there'
 }
 
 @test "dccl-decode: --resync finds a message behind more noise than a block of input, in a live pipe too" {
-    { head -c 300000 /dev/zero | tr '\0' B && bytes $frame; } > in
-    run -1 --separate-stderr "${nav[@]}" -F raw --resync in
+    { head -c 20000000 /dev/zero | tr '\0' B && bytes $frame; } > in
+    run -1 --separate-stderr timeout 30 "${nav[@]}" -F raw --resync in
     assert_output "$message"
-    assert_equal "${stderr_lines[1]}" 'dccl-decode: in:byte 0: 300000 bytes skipped: no message begins there'
+    assert_equal "${stderr_lines[1]}" 'dccl-decode: in:byte 0: 20000000 bytes skipped: no message begins there'
+    # also behind identifiers of the CCL, of two bytes, and where there are none
+    sed 's/id: 10/id: 1000/' nav.proto > long.proto
+    while read -r schema options digits; do
+        run -1 --separate-stderr dccl-decode -s "$schema" --time $when -F raw --resync $options < <(bytes $frame 424242 "$digits")
+        assert_equal "$(tail -1 <<< "$output")" "$message"
+    done << END
+nav.proto --id-codec=ccl 20$frame
+long.proto --color=never d107${frame:2}
+END
     bytes 42 $frame > noise
     echo "$message" > want
     live() { "${nav[@]}" -F raw --resync 2> said || [[ $? -eq 1 ]]; }

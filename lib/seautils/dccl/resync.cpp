@@ -9,6 +9,7 @@ Found find_message(TypeSet& types, std::string_view bytes, bool ended) {
     schema::Values values;
     std::string again;
     for (std::size_t at = 0; at < bytes.size(); ++at) {
+        if (!types.may_begin(bytes[at])) continue;
         const std::string_view rest = bytes.substr(at);
         try {
             const TypeSet::Decoded decoded = types.decode(rest, values);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bitset>
 #include <unordered_map>
 
 namespace seautils::dccl {
@@ -24,6 +25,7 @@ struct TypeSet::Impl {
     Codec codec;
     std::vector<Type> types;
     std::unordered_map<const Program*, const Type*> by_program;
+    std::bitset<256> first_bytes;
     std::vector<std::pair<std::string, std::string>> left_out;
     bool chosen = false;
     Collisions collisions = Collisions::refuse;
@@ -69,6 +71,10 @@ TypeSet::TypeSet(const std::vector<std::string>& schemas, const std::vector<std:
     }
     for (const Type& type : impl_->types) {
         if (type.program) impl_->by_program[type.program.get()] = &type;
+        if (!type.program || !type.program->has_id())
+            impl_->first_bytes.set();
+        else
+            impl_->first_bytes.set(type.program->id_code() & 0xff);
     }
 }
 
@@ -202,6 +208,10 @@ TypeSet::Decoded TypeSet::decode(std::string_view bytes, schema::Values& values)
         return {&type, dccl::decode(*type.legacy, bytes, impl_->options_for(*type.legacy), values)};
     }
     throw DataError(fmt::format("identifier {} is of no message that is loaded", id));
+}
+
+bool TypeSet::may_begin(char byte) const {
+    return impl_->first_bytes[static_cast<unsigned char>(byte)];
 }
 
 }  // namespace seautils::dccl

@@ -67,6 +67,9 @@ public:
     /// legacy frame takes all the bytes.
     Decoded decode(std::string_view bytes, schema::Values& values);
 
+    /// Whether some type's frames begin with this byte: a quick no for noise.
+    bool may_begin(char byte) const;
+
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
