@@ -138,7 +138,7 @@ b",,,,,,,,
     assert_equal "$stderr" 'dccl-decode: delimited holds messages of one type: choose it with -m'
     sed 's/Nav/Neva/' nav.proto > neva.proto
     run -78 --separate-stderr dccl-decode -s nav.proto -s neva.proto <<< $frame
-    assert_equal "$stderr" 'dccl-decode: id 10 is both message Nav and message Neva'
+    assert_equal "$stderr" 'dccl-decode: neva.proto:5: id 10 is both message Nav and message Neva'
 }
 
 @test "dccl-decode: a FILE may follow an option that may repeat" {

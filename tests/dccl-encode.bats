@@ -159,7 +159,7 @@ END
     sed 's/Nav/Neva/' nav.proto > both/deep/neva.proto
     run -78 --separate-stderr dccl-encode -s both <<< "$message"
     assert_output ''
-    assert_equal "$stderr" 'dccl-encode: id 10 is both message Neva and message Nav'
+    assert_equal "$stderr" 'dccl-encode: both/nav.proto:5: id 10 is both message Neva and message Nav'
     run_quiet dccl-encode -s both -m Nav <<< "$message"
     assert_output $frame
     sed -i 's/id: 10/id: 9/' both/deep/neva.proto
@@ -401,7 +401,7 @@ END
 
 @test "dccl-encode: models of the arithmetic codec" {
     run -78 --separate-stderr dccl-encode -s series.proto -m Series
-    assert_equal "$stderr" "dccl-encode: message Series: field step: arithmetic model 'steps' is not loaded"
+    assert_equal "$stderr" "dccl-encode: series.proto:8: message Series: field step: arithmetic model 'steps' is not loaded"
     # What is most likely takes least: eight times the likely step in less than a bit each.
     run_quiet dccl-encode -s series.proto --arithmetic-model steps.textpb <<< '{"step":[0,0,0,0,0,0,0,0]}'
     assert [ ${#output} -le 4 ]

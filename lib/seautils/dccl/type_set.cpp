@@ -33,6 +33,8 @@ struct TypeSet::Impl {
     void load_protobuf(const std::vector<std::string>& messages, const ProgramOptions& options);
     void load_legacy(const std::vector<std::string>& messages,
                      const std::vector<std::string>& files);
+    std::shared_ptr<const Program> compile(const google::protobuf::Descriptor& descriptor,
+                                           const ProgramOptions& options);
     void load(const std::shared_ptr<const Program>& program);
     void add(const google::protobuf::Descriptor& descriptor, const ProgramOptions& options);
     LegacyOptions options_for(const LegacyMessage& message) const;
@@ -82,11 +84,28 @@ TypeSet::~TypeSet() = default;
 TypeSet::TypeSet(TypeSet&&) noexcept = default;
 TypeSet& TypeSet::operator=(TypeSet&&) noexcept = default;
 
+/// Compiles, and says where in the schema that fails.
+std::shared_ptr<const Program> TypeSet::Impl::compile(
+    const google::protobuf::Descriptor& descriptor, const ProgramOptions& options) {
+    try {
+        return Program::compile(pool.layout(descriptor), options);
+    } catch (const ConfigError& e) {
+        const std::string_view what = e.what();
+        const std::string head = "message " + descriptor.full_name() + ": field ";
+        const std::size_t end = what.find(": ", head.size());
+        const bool of_field = what.starts_with(head) && end != what.npos;
+        const std::string_view path =
+            of_field ? what.substr(head.size(), end - head.size()) : std::string_view();
+        throw ConfigError(pool.place(descriptor, path) + e.what());
+    }
+}
+
 void TypeSet::Impl::load(const std::shared_ptr<const Program>& program) {
     try {
         codec.load(program);
-    } catch (const ConfigError&) {
-        if (collisions == Collisions::refuse) throw;
+    } catch (const ConfigError& e) {
+        if (collisions == Collisions::keep) return;
+        throw ConfigError(pool.place(*program->layout().descriptor, {}) + e.what());
     }
 }
 
@@ -95,7 +114,7 @@ void TypeSet::Impl::add(const google::protobuf::Descriptor& descriptor,
     Type type;
     type.layout = &pool.layout(descriptor);
     type.name = type.layout->full_name;
-    type.program = Program::compile(*type.layout, options);
+    type.program = compile(descriptor, options);
     load(type.program);
     types.push_back(std::move(type));
 }
@@ -116,7 +135,7 @@ void TypeSet::Impl::load_protobuf(const std::vector<std::string>& messages,
         std::shared_ptr<const Program> program;
         const schema::Layout& layout = pool.layout(*descriptor);
         try {
-            program = Program::compile(layout, options);
+            program = compile(*descriptor, options);
         } catch (const ConfigError& e) {
             left_out.emplace_back(layout.full_name, e.what());
             continue;

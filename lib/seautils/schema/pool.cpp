@@ -188,6 +188,23 @@ const Descriptor& Pool::message(const std::string& name) const {
                       (near.empty() ? "" : " (did you mean '" + near + "'?)"));
 }
 
+std::string Pool::place(const Descriptor& descriptor, std::string_view path) const {
+    google::protobuf::SourceLocation location;
+    const FileDescriptor* file = descriptor.file();
+    bool known = descriptor.GetSourceLocation(&location);
+    for (const Descriptor* message = &descriptor; message != nullptr && !path.empty();) {
+        const std::string_view name = path.substr(0, path.find_first_of(".["));
+        const auto* field = message->FindFieldByName(std::string(name));
+        if (field == nullptr || !field->GetSourceLocation(&location)) break;
+        known = true;
+        file = field->file();
+        message = field->message_type();
+        path.remove_prefix(std::min(path.find('.', name.size()), path.size() - 1) + 1);
+    }
+    const std::string line = known ? std::to_string(location.start_line + 1) + ": " : " ";
+    return impl_->tree.shown(file->name()) + ":" + line;
+}
+
 std::unique_ptr<google::protobuf::Message> Pool::new_message(const Descriptor& descriptor) const {
     return std::unique_ptr<google::protobuf::Message>(
         impl_->factory.GetPrototype(&descriptor)->New());

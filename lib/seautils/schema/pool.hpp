@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace seautils::schema {
@@ -43,6 +44,10 @@ public:
     /// The type of that full name, or, where only one type ends in `.name`, that one.
     /// @throws ConfigError  unknown (proposes the nearest name), or ambiguous (lists them)
     const google::protobuf::Descriptor& message(const std::string& name) const;
+
+    /// Where a type, or a field of it, is declared: `FILE:LINE: `, for messages.
+    /// @param path  of the field, `leg[].seq`; empty for the type; as much of it as is known counts
+    std::string place(const google::protobuf::Descriptor& descriptor, std::string_view path) const;
 
     /// A new message of a run-time type. The pool must outlive it.
     std::unique_ptr<google::protobuf::Message> new_message(
