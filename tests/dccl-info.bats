@@ -126,6 +126,19 @@ lint_of() {
     assert_output --partial ': g 0.3 is outside 0 to 0.3'
 }
 
+@test "dccl-info: whole numbers in broken steps are said to be cut" {
+    schema cut 'message M { option (dccl.msg) = { id: 1 max_bytes: 32 codec_version: 4 };
+      required double time_s = 1 [(dccl.field) = { codec: "dccl.time" in_head: true }];
+      required int32 broken = 2 [(dccl.field) = { min: 0 max: 100 resolution: 2.5 }];
+      required int32 whole = 3 [(dccl.field) = { min: 0 max: 62 resolution: 2 }]; }'
+    run lint_of cut
+    assert_line 'cut-values broken'
+    refute_output --partial whole
+    # 37 is 14.8 steps: 14 travel
+    run_quiet bash -c "echo '{\"time_s\":1,\"broken\":37,\"whole\":0}' | dccl-encode -s cut.proto | dccl-decode -s cut.proto --time @1"
+    assert_output '{"time_s":1,"broken":35,"whole":0}'
+}
+
 @test "dccl-info: a message that may pass 32, 64 or 256 bytes names the field that does" {
     schema mtu 'message M { option (dccl.msg) = { id: 1 max_bytes: 400 codec_version: 4 };
       required double time_s = 1 [(dccl.field) = { codec: "dccl.time" in_head: true }];

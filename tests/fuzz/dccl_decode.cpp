@@ -8,6 +8,7 @@
 #include "seautils/schema/json.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <list>
 #include <memory>
@@ -60,10 +61,16 @@ private:
 
 namespace {
 
-/// CCL's codes are cut off, not rounded: each passage may lose a step more.
+/// CCL's codes, and integers in steps that have a fraction, are cut off and not rounded: each
+/// passage may lose a step more.
 bool drifts(const dccl::Program& program) {
-    return std::any_of(program.body().begin(), program.body().end(),
-                       [](const dccl::Op& op) { return op.kind == dccl::OpKind::ccl; });
+    const auto cuts = [](const dccl::Op& op) {
+        const dccl::NumberCode& n = op.number;
+        return op.kind == dccl::OpKind::ccl ||
+               (op.kind == dccl::OpKind::integer && n.resolution != std::trunc(n.resolution));
+    };
+    return std::any_of(program.head().begin(), program.head().end(), cuts) ||
+           std::any_of(program.body().begin(), program.body().end(), cuts);
 }
 
 std::string frame_of(const dccl::Program& program, std::string_view rest) {

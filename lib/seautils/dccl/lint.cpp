@@ -50,6 +50,15 @@ void unreachable_bound(const FieldReport& row, std::vector<Remark>& out) {
     }
 }
 
+void cut_values(const FieldReport& row, std::vector<Remark>& out) {
+    const double step = row.number.resolution;
+    if (row.kind != OpKind::integer || step <= 1 || step == std::trunc(step)) return;
+    out.push_back(
+        {"cut-values", row.path,
+         fmt::format("whole numbers in steps of {} are cut, not rounded: up to {} too small", step,
+                     std::ceil(step))});
+}
+
 void off_grid(const FieldReport& row, const FieldOptions& options, std::vector<Remark>& out) {
     if (!options.precision || (row.kind != OpKind::integer && row.kind != OpKind::floating)) return;
     const NumberCode& n = row.number;
@@ -71,6 +80,7 @@ void field_remarks(const FieldReport& row, int version, std::vector<Remark>& out
     const FieldOptions options = field_options(*row.field->descriptor);
     wasted_codes(row, out);
     unreachable_bound(row, out);
+    cut_values(row, out);
     off_grid(row, options, out);
     if (row.kind == OpKind::time && options.precision && row.field->kind != Kind::float64) {
         out.push_back({"time-precision", row.path,

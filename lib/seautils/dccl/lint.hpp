@@ -25,6 +25,7 @@ struct Remark {
 /// | `lost-field` | marked in_head inside of a body message: codec versions 3 and 4 never send it |
 /// | `unreachable-bound` | a float's own bound is out of its range, because binary32 rounds it outwards |
 /// | `over-mtu` | the message may not fit into frames of 32, 64 or 256 bytes; names the field that passes the limit |
+/// | `cut-values` | an integer in steps that have a fraction: the format cuts it instead of rounding |
 /// | `bounds-off-grid` | min or max is no multiple of the step that `precision` states |
 /// | `time-precision` | precision of an integer time, which other releases of the reference read differently |
 /// | `length-lost` | bytes of fixed size (codec versions 2 and 3) come back with zeros behind them |
