@@ -80,7 +80,7 @@ signal_that_ends() {
             open STDOUT, ">&", $back;
             close $_ for $to, $answer;
             $SIG{$_} = "DEFAULT" for qw(INT TERM PIPE HUP);
-            exec @command;
+            exec @command or exit 127;
         }
         close $_ for $from, $back;
         open my $file, "<", $in;
