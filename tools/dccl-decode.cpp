@@ -2,14 +2,12 @@
 #include "dccl_options.hpp"
 
 #include "seautils/core/text.hpp"
-#include "seautils/dccl/field_error.hpp"
-#include "seautils/dccl/resync.hpp"
+#include "seautils/dccl/raw_stream.hpp"
 #include "seautils/schema/csv.hpp"
 #include "seautils/schema/json.hpp"
 #include "seautils/schema/message.hpp"
 #include "seautils/stream/hex.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,7 +41,7 @@ public:
             bytes_ = from_base64(record);
         else
             bytes_ = record;
-        types_.set_now(io_.now_us() / 1'000'000);
+        tick();
         std::string_view rest = bytes_;
         do {
             try {
@@ -56,50 +54,14 @@ public:
                                 e.what());
             }
             if (options_.header_only) return;
-        } while (!rest.empty() && !padding(rest));
+        } while (!rest.empty() && !types_.is_padding(rest));
     }
 
-    /// Unframed bytes: takes what messages it can, and returns how many bytes that was.
-    std::size_t block(std::string_view bytes, std::uint64_t offset, bool ended, bool resync) {
-        types_.set_now(io_.now_us() / 1'000'000);
-        std::size_t at = 0;
-        while (at < bytes.size()) {
-            try {
-                if (!lost_) {
-                    at += message(bytes.substr(at));
-                    continue;
-                }
-                const dccl::Found found = dccl::find_message(types_, bytes.substr(at), ended);
-                at += found.skipped;
-                lost_ = !found.synchronous;
-                if (lost_) break;
-                skipped(offset + at);
-            } catch (const dccl::Truncated& e) {
-                if (!ended) return at;
-                fail(offset + at, e, resync);
-            } catch (const DataError& e) {
-                fail(offset + at, e, resync);
-            }
-        }
-        if (ended && lost_) skipped(offset + at);
-        return at;
-    }
+    dccl::TypeSet& types() { return types_; }
+    /// Times are near to the clock's.
+    void tick() { types_.set_now(io_.now_us() / 1'000'000); }
 
-private:
-    void fail(std::uint64_t offset, const DataError& e, bool resync) {
-        if (!resync)
-            io_.stop_at(offset,
-                        std::string(e.what()) + " (--resync looks on for the next message)");
-        io_.refuse_at(offset, e.what());
-        lost_ = true;
-        lost_at_ = offset;
-    }
-
-    void skipped(std::uint64_t end) {
-        io_.refuse_at(lost_at_,
-                      counted(end - lost_at_, "byte") + " skipped: no message begins there");
-    }
-
+    /// Decodes the message that the bytes begin with, writes it, and returns how many it took.
     std::size_t message(std::string_view bytes) {
         const dccl::TypeSet::Decoded decoded = types_.decode(bytes, values_);
         std::string& out = io_.out.buffer();
@@ -123,24 +85,28 @@ private:
         return decoded.bytes;
     }
 
-    /// Zeros that fill up a modem's frame, unless a message has the identifier 0.
-    bool padding(std::string_view rest) const {
-        const bool zeros = rest.find_first_not_of('\0') == rest.npos;
-        return zeros &&
-               std::none_of(types_.types().begin(), types_.types().end(), [](const auto& t) {
-                   return t.program != nullptr && t.program->has_id() && t.program->id() == 0;
-               });
-    }
-
+private:
     cli::Io& io_;
     const tools::DcclOptions& options_;
     dccl::TypeSet types_;
     std::optional<schema::CsvWriter> csv_;
     schema::Values values_;
     std::string bytes_, binary_;
-    bool lost_ = false;
-    std::uint64_t lost_at_ = 0;
 };
+
+/// Messages back to back, up to the first byte at which none begins; beyond it with --resync.
+void unframed(cli::Io& io, Tool& tool, bool resync) {
+    const auto decode = [&](std::string_view bytes) { return tool.message(bytes); };
+    const auto refuse = [&](std::uint64_t offset, const std::string& what) {
+        if (!resync) io.stop_at(offset, what + " (--resync looks on for the next message)");
+        io.refuse_at(offset, what);
+    };
+    dccl::RawStream stream(tool.types(), decode, refuse);
+    io.for_each_block([&](std::string_view bytes, std::uint64_t offset, bool ended) {
+        tool.tick();
+        return stream.take(bytes, offset, ended);
+    });
+}
 
 }  // namespace
 
@@ -161,12 +127,7 @@ int main(int argc, char** argv) {
                            "raw: after bytes of no message, look on for the next");
     return app.main(argc, argv, [&](cli::Io& io) {
         Tool tool(io, dccl);
-        if (io.input_format == "raw") {
-            io.for_each_block([&](std::string_view bytes, std::uint64_t offset, bool ended) {
-                return tool.block(bytes, offset, ended, resync);
-            });
-            return;
-        }
+        if (io.input_format == "raw") return unframed(io, tool, resync);
         const auto framing =
             io.input_format == "delimited" ? cli::Framing::delimited : cli::Framing::lines;
         io.for_each(framing, [&](std::string_view record) { tool.record(record); });

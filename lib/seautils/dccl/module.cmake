@@ -1,7 +1,7 @@
 seautils_module(NAME dccl
   SOURCES ccl.cpp codec.cpp compile_field.cpp compiler.cpp conditions.cpp crypto.cpp decode.cpp
     dynamic.cpp encode.cpp hash.cpp legacy_codec.cpp legacy_schema.cpp lint.cpp lua_proxy.cpp
-    lua_sandbox.cpp models.cpp murmur.cpp native.cpp number.cpp options.cpp resync.cpp survey.cpp
+    lua_sandbox.cpp models.cpp murmur.cpp native.cpp number.cpp options.cpp raw_stream.cpp survey.cpp
     survey_text.cpp type_set.cpp
   DEPENDS core schema entropy LINK PkgConfig::CRYPTOPP PkgConfig::LUA pugixml::pugixml fmt::fmt
     $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)

@@ -229,6 +229,30 @@ TypeSet::Decoded TypeSet::decode(std::string_view bytes, schema::Values& values)
     throw DataError(fmt::format("identifier {} is of no message that is loaded", id));
 }
 
+bool TypeSet::is_padding(std::string_view rest) const {
+    if (rest.find_first_not_of('\0') != rest.npos) return false;
+    return std::none_of(impl_->types.begin(), impl_->types.end(), [](const Type& t) {
+        return t.program != nullptr && t.program->has_id() && t.program->id() == 0;
+    });
+}
+
+std::map<std::string, std::uint32_t> repeats(const Type& type) {
+    std::map<std::string, std::uint32_t> all;
+    if (type.program == nullptr) {
+        for (const schema::Field& f : type.layout->fields) {
+            if (f.repeated) all[f.name] = type.legacy->array_length(f.name);
+        }
+        return all;
+    }
+    for (const FieldReport& row : type.program->report()) {
+        if (row.max_repeat == 0) continue;
+        std::string path = row.path;
+        for (std::size_t k; (k = path.find("[]")) != std::string::npos;) path.erase(k, 2);
+        all[path] = row.max_repeat;
+    }
+    return all;
+}
+
 bool TypeSet::may_begin(char byte) const {
     return impl_->first_bytes[static_cast<unsigned char>(byte)];
 }

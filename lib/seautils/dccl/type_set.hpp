@@ -5,6 +5,7 @@
 #include "seautils/dccl/legacy_schema.hpp"
 #include "seautils/schema/pool.hpp"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -19,6 +20,10 @@ struct Type {
     std::shared_ptr<const Program> program;  ///< null for a legacy type
     const LegacyMessage* legacy = nullptr;   ///< null for a protobuf type
 };
+
+/// The largest number of elements of each repeated field of a type, by its path ("sample"): what
+/// schema::CsvWriter makes its columns of.
+std::map<std::string, std::uint32_t> repeats(const Type& type);
 
 /// What to do when two types have one identifier, which a receiver cannot tell apart.
 enum class Collisions : std::uint8_t { refuse, keep };
@@ -69,6 +74,10 @@ public:
 
     /// Whether some type's frames begin with this byte: a quick no for noise.
     bool may_begin(char byte) const;
+
+    /// Whether the bytes behind a message are zeros that fill up a modem's frame, and not messages
+    /// of the identifier 0.
+    bool is_padding(std::string_view rest) const;
 
 private:
     struct Impl;
