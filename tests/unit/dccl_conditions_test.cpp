@@ -1,6 +1,7 @@
 #include "seautils/dccl/conditions.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/dccl/codec.hpp"
 #include "seautils/schema/pool.hpp"
 
 #include <gtest/gtest.h>
@@ -516,6 +517,37 @@ TEST_F(HostileConditions, ManyScriptsAreForgottenInTime) {
         EXPECT_EQ(number("local t = {'" + n + "', 'a" + n + "', 'b" + n + "'} return #t + " + n),
                   3.0 + k);
     }
+}
+
+/// The codec gives each message its budget: a hostile schema costs bounded time for each.
+TEST(ConditionsInCodec, AMessageHasABudgetOfItsOwn) {
+    schema::Pool pool;
+    pool.load_text("hostile.proto", R"(
+        syntax = "proto2"; import "dccl/option_extensions.proto";
+        message M { option (dccl.msg) = { id: 1 max_bytes: 8192 codec_version: 4 };
+          repeated uint32 n = 1 [(dccl.field) = { min: 0 max: 255 max_repeat: 3000
+            dynamic_conditions { omit_if: "for i = 1, 20000 do end return false" } }]; })");
+    const schema::Layout& layout = pool.layout(pool.message("M"));
+    const auto program = Program::compile(layout);
+    Codec codec;
+    codec.load(program);
+    const auto message = [&](std::uint32_t count) {
+        schema::Values values;
+        values.reset(layout);
+        const std::uint32_t first = values.add_elements(0, count);
+        for (std::uint32_t k = 0; k < count; ++k) values[first + k].present = true;
+        return values;
+    };
+    std::string bytes;
+    EXPECT_THROW(codec.encode(*program, message(3000), bytes), DataError);
+    for (int k = 0; k < 50; ++k) EXPECT_NO_THROW(codec.encode(*program, message(20), bytes));
+    bytes.clear();
+    codec.encode(*program, message(20), bytes);
+    schema::Values back;
+    for (int k = 0; k < 50; ++k) EXPECT_NO_THROW(codec.decode(bytes, back));
+    // 2 + 12 bits of identifier and count, then 3000 elements: the decoder asks as often.
+    EXPECT_THROW(codec.decode(std::string("\x02\xb8\x0b", 3) + std::string(3000, '\0'), back),
+                 DataError);
 }
 
 }  // namespace

@@ -154,6 +154,7 @@ void Codec::encode(const Program& program, const schema::Values& values, std::st
     Impl& c = *impl_;
     const std::size_t start = out.size();
     Learning learning(program, c.encoder_counts);
+    if (c.engine) c.engine->start_message();
     try {
         if (!c.options.header_only)
             check_required(program.layout(), values, 0);
@@ -206,6 +207,7 @@ Codec::Decoded Codec::decode(std::string_view bytes, schema::Values& values,
     }
     values.reset(program->layout());
     Learning learning(*program, c.decoder_counts);
+    if (c.engine) c.engine->start_message();
     try {
         Decoder decoder(c, *program, values);
         BitReader reader(bytes);
