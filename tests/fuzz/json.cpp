@@ -43,6 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string second = padded(written);
     reader.read(std::string_view(second).substr(0, written.size()), layout, again);
     fuzz::require(schema::equal(values, again), "what is written reads back the same");
-    if (json.find("@type") == json.npos) check_against_protobuf(json, layout, values);
+    // Its parser drops the sign of -0, and does not know "@type" here.
+    const bool comparable = json.find("@type") == json.npos && json.find("-0") == json.npos;
+    if (comparable) check_against_protobuf(json, layout, values);
     return 0;
 }
