@@ -40,7 +40,7 @@ class ConditionEngine {
 public:
     static constexpr std::size_t max_script_bytes = 4096;
     static constexpr unsigned max_instructions = 100'000;
-    static constexpr std::size_t max_memory_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t max_memory_bytes = std::size_t{1} << 18;
     static constexpr std::size_t max_string_bytes = 4096;
     /// What the scripts of one message may take together; each run counts as 200 at least.
     static constexpr unsigned max_message_instructions = 5'000'000;
