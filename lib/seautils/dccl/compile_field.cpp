@@ -1,6 +1,7 @@
 #include "seautils/dccl/compiler.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -332,7 +333,7 @@ Compiler::Bits Compiler::fixed_value(Op& op, const FieldOptions& options, const 
             take(fixed.text, extract<std::string>(text));
             break;
     }
-    if (!good) refuse(path, fmt::format("static_value '{}' is no value of its type", text));
+    if (!good) refuse(path, fmt::format("static_value {} is no value of its type", quote(text)));
     op.extra = static_cast<std::uint32_t>(program_->fixed_.size());
     program_->fixed_.push_back(std::move(fixed));
     return {};
@@ -378,7 +379,8 @@ Compiler::Bits Compiler::arithmetic(Op& op, const FieldOptions& options, const s
     if (!options.arithmetic_model) refuse(path, "option [arithmetic] { model } is missing");
     const auto model = options_.models.find(*options.arithmetic_model);
     if (model == options_.models.end()) {
-        refuse(path, fmt::format("arithmetic model '{}' is not loaded", *options.arithmetic_model));
+        refuse(path,
+               fmt::format("arithmetic model {} is not loaded", quote(*options.arithmetic_model)));
     }
     op.extra = static_cast<std::uint32_t>(program_->models_.size());
     program_->models_.push_back(std::make_shared<const entropy::Model>(model->second));

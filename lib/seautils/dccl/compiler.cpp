@@ -1,6 +1,7 @@
 #include "seautils/dccl/compiler.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 #include "seautils/dccl/conditions.hpp"
 #include "seautils/dccl/hash.hpp"
 #include "seautils/schema/values.hpp"
@@ -63,7 +64,8 @@ std::shared_ptr<const Program> Compiler::run() {
         codec && (codec->family == Family::standard || codec->family == Family::presence ||
                   codec->family == Family::native);
     if (p.version_ < 2 || p.version_ > 4 || !known) {
-        refuse("", fmt::format("no codec '{}' for messages (codec_version {})", name, p.version_));
+        refuse("",
+               fmt::format("no codec {} for messages (codec_version {})", quote(name), p.version_));
     }
     if (count_slots(layout_, 0) > schema::Values::max_slots) {
         refuse("", fmt::format("more than {} values in one message", schema::Values::max_slots));
@@ -298,7 +300,7 @@ CodecChoice Compiler::choose(const schema::Field& f, const FieldOptions& options
     if (name.empty()) name = fmt::format("dccl.default{}", program_->version_);
     const auto codec = find_codec(name, program_->version_);
     if (!codec || !fits(*codec, f)) {
-        refuse(path, fmt::format("no codec '{}' for its type (codec_version {})", name,
+        refuse(path, fmt::format("no codec {} for its type (codec_version {})", quote(name),
                                  program_->version_));
     }
     return *codec;

@@ -371,8 +371,8 @@ void Encoder::arithmetic(const Op& op, const Frame& frame) {
         if (!codec_.options.lenient &&
             (x < model.value_bound.front() || x > model.value_bound.back())) {
             throw FieldError{
-                "", fmt::format("{} is outside {} to {} (model '{}')", x, model.value_bound.front(),
-                                model.value_bound.back(), model.name)};
+                "", fmt::format("{} is outside {} to {} (model {})", x, model.value_bound.front(),
+                                model.value_bound.back(), quote(model.name))};
         }
         codec_.run.push_back(x);
     }

@@ -1,6 +1,7 @@
 #include "seautils/dccl/models.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 #include "seautils/schema/builtin_files.hpp"
 #include "seautils/schema/message.hpp"
 #include "seautils/schema/pool.hpp"
@@ -58,7 +59,7 @@ void add_model(const std::string& text, std::map<std::string, entropy::Model>& m
     entropy::check(model);
     const std::string name = model.name;
     if (!models.try_emplace(name, std::move(model)).second) {
-        throw ConfigError(fmt::format("arithmetic model '{}' is given twice", name));
+        throw ConfigError(fmt::format("arithmetic model {} is given twice", quote(name)));
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include "seautils/core/error.hpp"
 
+#include "seautils/core/text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,15 +23,15 @@ Symbol coded_symbol(const Model& model, double value, bool lenient) {
     const Symbol symbol = symbol_of(model, value);
     if (symbol != out_of_range_symbol || model.out_of_range_frequency > 0) return symbol;
     if (lenient) return require_eof(model);
-    throw DataError(fmt::format("'{}' is outside {} to {} of arithmetic model '{}'", value,
+    throw DataError(fmt::format("'{}' is outside {} to {} of arithmetic model {}", value,
                                 model.value_bound.front(),
-                                model.value_bound[model.frequency.size() - 1], model.name));
+                                model.value_bound[model.frequency.size() - 1], quote(model.name)));
 }
 
 Symbol require_eof(const Model& model) {
     if (model.eof_frequency > 0) return eof_symbol;
-    throw DataError(
-        fmt::format("too few values, and arithmetic model '{}' has eof_frequency 0", model.name));
+    throw DataError(fmt::format("too few values, and arithmetic model {} has eof_frequency 0",
+                                quote(model.name)));
 }
 
 std::uint64_t min_bits(const Model& model, std::uint32_t max_count) {

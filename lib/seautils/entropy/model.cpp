@@ -1,6 +1,7 @@
 #include "seautils/entropy/model.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@ namespace seautils::entropy {
 namespace {
 
 [[noreturn]] void refuse(const Model& model, const std::string& what) {
-    throw ConfigError(fmt::format("arithmetic model '{}': {}", model.name, what));
+    throw ConfigError(fmt::format("arithmetic model {}: {}", quote(model.name), what));
 }
 
 void check_bounds(const Model& model) {
