@@ -1,7 +1,6 @@
 #include "seautils/entropy/arithmetic.hpp"
 
 #include "seautils/core/error.hpp"
-
 #include "seautils/core/text.hpp"
 
 #include <fmt/format.h>
