@@ -34,6 +34,16 @@ struct Codec::Impl {
     }
 };
 
+/// The unit that the schema states, with a blank in front, or nothing.
+std::string with_unit(const Op& op);
+/// A value as a person wrote it.
+std::string shown(const Op& op, const schema::Slot& slot, const schema::Values& values);
+double as_double(const Op& op, const schema::Slot& slot);
+/// Puts a number into a slot as its kind wants it; saturates what the kind cannot hold.
+void set_number(schema::Kind kind, double x, schema::Slot& slot);
+/// Position of an enumerator's number in its declaration (the first name's, for aliases).
+std::optional<std::int64_t> position_of(const EnumCode& code, std::int64_t number);
+
 /// Puts one message's values into bits. One object a message.
 class Encoder {
 public:

@@ -3,7 +3,6 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/text.hpp"
 #include "seautils/dccl/conditions.hpp"
-#include "seautils/dccl/hash.hpp"
 #include "seautils/schema/values.hpp"
 
 #include <fmt/format.h>
@@ -27,14 +26,7 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b) {
     return a == 0 || b <= too_many_bits / a ? std::min(a * b, too_many_bits) : too_many_bits;
 }
 
-std::uint64_t bytes_of(std::uint64_t bits) { return (bits + 7) / 8; }
-
 }  // namespace
-
-std::shared_ptr<const Program> Program::compile(const schema::Layout& layout,
-                                                const ProgramOptions& options) {
-    return Compiler(layout, options).run();
-}
 
 Compiler::Compiler(const schema::Layout& layout, const ProgramOptions& options)
     : layout_(layout),
@@ -400,22 +392,5 @@ std::uint64_t Compiler::count_slots(const schema::Layout& layout, int depth) {
     }
     return sum;
 }
-
-std::uint64_t Program::largest_bytes() const {
-    return bytes_of(id_bits_ + head_max_) + bytes_of(body_max_);
-}
-std::uint64_t Program::smallest_bytes() const {
-    return bytes_of(id_bits_ + head_min_) + bytes_of(body_min_);
-}
-std::uint64_t Program::reported_max_size() const {
-    const unsigned id = omit_id_ ? 0 : id_codec_ == IdCodec::ccl ? 24 : 16;
-    return bytes_of(id + head_max_) + bytes_of(body_max_);
-}
-std::uint64_t Program::reported_min_size() const {
-    return bytes_of((omit_id_ ? 0 : 8) + head_min_) + bytes_of(body_min_);
-}
-std::uint64_t Program::definition_hash() const { return hash_definition(*this); }
-
-std::vector<FieldReport> Program::report() const { return report_; }
 
 }  // namespace seautils::dccl
