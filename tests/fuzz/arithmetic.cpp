@@ -72,8 +72,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::size_t read = 0;
     const auto get = [&] { return read < out.size() ? out[read++] : (++read, true); };
     entropy::decode_run(model, decoder, max_count, get, again);
-    fuzz::context = listed("given", values) + listed("got", again) + listed("weights", model.frequency) +
-                    listed("bounds", model.value_bound);
+    fuzz::context = listed("given", values) + listed("got", again) +
+                    listed("weights", model.frequency) + listed("bounds", model.value_bound);
     // The format takes the nearer of two bounds by the squares: 1 stands for -1 where both are bounds.
     for (double& x : values) x = entropy::value_of(model, entropy::coded_symbol(model, x, false));
     fuzz::require(again == values, "values come back");
