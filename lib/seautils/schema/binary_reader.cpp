@@ -168,19 +168,23 @@ private:
                 in.refuse("a string that is not UTF-8");
             return values_.set_text(slot, text);
         }
-        Slot s = values_[slot];
+        if (f.kind == Kind::enumeration) return enumerator(in, f, values_[slot]);
+        Slot& s = values_[slot];
         if (f.wire_form == WireForm::fixed64)
             s.u = in.get_fixed<8>();
         else if (f.wire_form == WireForm::fixed32)
             from_32(f, static_cast<std::uint32_t>(in.get_fixed<4>()), s);
         else
             from_varint(f, in.get_varint(), s);
-        const bool closed = f.kind == Kind::enumeration && !f.enumeration->open;
-        const bool undeclared =
-            closed && f.enumeration->find(static_cast<std::int32_t>(s.i)) == nullptr;
-        if (undeclared) return;  // an unknown field, as for protobuf: what was there stays
         s.present = true;
-        values_[slot] = s;
+    }
+
+    /// A number that a closed enumeration does not declare is an unknown field: what was there stays.
+    static void enumerator(Bytes& in, const Field& f, Slot& s) {
+        const auto number = static_cast<std::int32_t>(in.get_varint());
+        if (!f.enumeration->open && f.enumeration->find(number) == nullptr) return;
+        s.i = number;
+        s.present = true;
     }
 
     static void from_32(const Field& f, std::uint32_t bits, Slot& s) {
