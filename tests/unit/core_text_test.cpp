@@ -163,6 +163,8 @@ TEST(CoreText, WhatIsNoBase64IsNamed) {
     EXPECT_EQ(base64_refusal("Z==="), "'=' in column 2 is no base64 digit");
     EXPECT_EQ(base64_refusal("===="), "'=' in column 1 is no base64 digit");
     EXPECT_EQ(base64_refusal("Zg==Zg=="), "'=' in column 3 is no base64 digit");
+    EXPECT_EQ(base64_refusal("QR=="), "base64 that ends within a byte");  // QQ== is "A"
+    EXPECT_EQ(base64_refusal("QUJ"), "base64 that ends within a byte");   // QUI is "AB"
     EXPECT_EQ(base64_refusal(std::string("\0AAA", 4)), R"('\x00' in column 1 is no base64 digit)");
 }
 

@@ -172,6 +172,9 @@ std::string from_base64(std::string_view text) {
         word = word << 6 | value;
         if (k % 4 != 0) bytes += static_cast<char>(word >> (6 - 2 * (k % 4)) & 0xff);
     }
+    const std::size_t rest = digits.size() % 4;
+    if ((rest == 2 && (word & 15) != 0) || (rest == 3 && (word & 3) != 0))
+        throw DataError("base64 that ends within a byte");
     return bytes;
 }
 

@@ -41,7 +41,8 @@ std::string nearest(std::string_view name, const std::vector<std::string>& candi
 void append_base64(std::string& out, std::string_view bytes);
 
 /// The bytes of base64 text, in the standard or the URL alphabet, with or without padding.
-/// @throws DataError  names the first bad character and its column
+/// @throws DataError  names the first bad character and its column; or the text is cut short: bits
+///                    behind the last whole byte are not zero
 std::string from_base64(std::string_view text);
 
 }  // namespace seautils

@@ -225,38 +225,12 @@ void Compiler::add(const schema::Field& f, std::uint32_t index, const FieldOptio
     conditions(op, options, path);
     const std::size_t at = ops.size();
     const std::size_t row = program_->report_.size();
-    FieldReport report;
-    report.depth = place.depth;
-    report.field = &f;
-    report.path = path;
-    report.codec = codec.name;
-    report.in_head = place.pass == Part::head;
-    program_->report_.push_back(report);
+    program_->report_.emplace_back();  // in front of those of its fields
     ops.push_back(op);
-    Bits bits;
-    if (f.kind == schema::Kind::message && codec.family != Family::ccl) {
-        if (std::find(open_.begin(), open_.end(), f.message) != open_.end()) {
-            refuse(path, fmt::format("message {} contains itself", f.message->full_name));
-        }
-        if (open_.size() >= max_depth)
-            refuse(path, fmt::format("nested deeper than {}", max_depth));
-        open_.push_back(f.message);
-        Place child = inside;
-        child.message_version = codec.family == Family::native ? 4 : codec.version;
-        op.kind = OpKind::message;
-        op.drop_empty = child.message_version == 2;
-        if (child.message_version == 3) op.presence_bit = !f.required && !f.repeated;
-        if (child.message_version == 4)
-            op.presence_bit = !op.required && !f.required && !f.repeated;
-        bits = message(*f.message, ops, child);
-        op.element_min_bits = bits.min;
-        if (op.presence_bit) bits = {1, bits.max + 1};
-        op.end = static_cast<std::uint32_t>(ops.size());
-        open_.pop_back();
-    } else {
-        bits = element(op, options, codec, path);
-        op.end = static_cast<std::uint32_t>(at) + 1;
-    }
+    const bool nested = f.kind == schema::Kind::message && codec.family != Family::ccl;
+    const Bits bits =
+        nested ? sub_message(op, codec, ops, inside, path) : element(op, options, codec, path);
+    op.end = static_cast<std::uint32_t>(nested ? ops.size() : at + 1);
     repeat(op, options, bits, path);
     if (place.pass == Part::head && (op.in_oneof || op.min_bits != op.max_bits)) {
         refuse(path, op.in_oneof ? "a oneof member cannot be in the header"
@@ -265,6 +239,37 @@ void Compiler::add(const schema::Field& f, std::uint32_t index, const FieldOptio
     op.plain = is_plain(op);
     ops[at] = op;
     FieldReport& r = program_->report_[row];
+    r = report(op, options);
+    r.depth = place.depth;
+    r.path = path;
+    r.codec = codec.name;
+    r.in_head = place.pass == Part::head;
+}
+
+Compiler::Bits Compiler::sub_message(Op& op, const CodecChoice& codec, std::vector<Op>& ops,
+                                     const Place& inside, const std::string& path) {
+    const schema::Field& f = *op.field;
+    if (std::find(open_.begin(), open_.end(), f.message) != open_.end()) {
+        refuse(path, fmt::format("message {} contains itself", f.message->full_name));
+    }
+    if (open_.size() >= max_depth) refuse(path, fmt::format("nested deeper than {}", max_depth));
+    open_.push_back(f.message);
+    Place child = inside;
+    child.message_version = codec.family == Family::native ? 4 : codec.version;
+    op.kind = OpKind::message;
+    op.drop_empty = child.message_version == 2;
+    if (child.message_version == 3) op.presence_bit = !f.required && !f.repeated;
+    if (child.message_version == 4) op.presence_bit = !op.required && !f.required && !f.repeated;
+    const Bits bits = message(*f.message, ops, child);
+    open_.pop_back();
+    op.element_min_bits = bits.min;
+    return op.presence_bit ? Bits{1, bits.max + 1} : bits;
+}
+
+/// What the step itself says of its field.
+FieldReport Compiler::report(const Op& op, const FieldOptions& options) {
+    FieldReport r;
+    r.field = op.field;
     r.kind = op.kind;
     r.number = op.number;
     r.min_bits = op.min_bits;
@@ -279,6 +284,7 @@ void Compiler::add(const schema::Field& f, std::uint32_t index, const FieldOptio
     r.max_length = options.max_length.value_or(0);
     r.has_presence_cost = op.presence_bit || op.number.null_code;
     r.has_conditions = op.condition >= 0;
+    return r;
 }
 
 CodecChoice Compiler::choose(const schema::Field& f, const FieldOptions& options,

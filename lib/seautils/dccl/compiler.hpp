@@ -66,6 +66,9 @@ private:
                   const Place& place);
     void add(const schema::Field& field, std::uint32_t index, const FieldOptions& options,
              std::vector<Op>& ops, const Place& place, const Place& inside);
+    Bits sub_message(Op& op, const CodecChoice& codec, std::vector<Op>& ops, const Place& inside,
+                     const std::string& path);
+    static FieldReport report(const Op& op, const FieldOptions& options);
     CodecChoice choose(const schema::Field& field, const FieldOptions& options,
                        const std::string& path) const;
     bool is_required(const schema::Field& field) const;

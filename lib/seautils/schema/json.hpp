@@ -19,6 +19,11 @@ namespace seautils::schema {
 /// integer, an undeclared enumerator, a null element (unless Field::nullable_elements), invalid
 /// UTF-8, more than 32 levels, anything after the object. Not covered: map fields, and the special
 /// forms of google.protobuf's well-known types, which are read and written as plain messages.
+///
+/// Stricter than protobuf's parser, which guesses: JSON is that of RFC 8259 (no bare key, no single
+/// quotes, no last comma, no `5.`); a repeated field is an array; in quotes stands no "+1", no
+/// "0x10", no "1" for true; a number too small for a double is no integer; int64 does not clip.
+/// Laxer: a base64 text may mix both alphabets, and an open enumeration's number be in quotes.
 class JsonReader {
 public:
     JsonReader();

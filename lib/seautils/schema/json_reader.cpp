@@ -243,9 +243,11 @@ private:
         std::uint64_t x = 0;
         if (value.get_uint64().get(x) == simdjson::SUCCESS && x <= max) return x;
         const std::string_view text = number_token(value);
-        if (text.starts_with('-') && text != "-0")
+        const bool zero =
+            text.substr(0, text.find_first_of("eE")).find_first_of("123456789") == text.npos;
+        if (text.starts_with('-') && !zero)
             refuse(fmt::format("{} is outside 0 to {}", quote(text), max));
-        return whole<std::uint64_t>(text == "-0" ? "0" : text, 0, max, false);
+        return zero ? 0 : whole<std::uint64_t>(text, 0, max, false);
     }
 
     /// The token of a number, which simdjson could not read as the integer wanted.
@@ -284,6 +286,8 @@ private:
             const auto [at, error] = std::from_chars(text.data(), end, x);
             const bool word =
                 text.find_first_of("nNiI") != text.npos;  // inf, nan in other spellings
+            if (error == std::errc::result_out_of_range && at == end)
+                refuse(fmt::format("{} is beyond the range of its type", quote(text)));
             if (error != std::errc() || at != end || word)
                 refuse(fmt::format("{} is not a number", quote(text)));
             return x;
@@ -300,10 +304,9 @@ private:
     }
 
     double float32(double x) {
-        if (std::isfinite(x) &&
-            std::fabs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
+        // From half a step above the largest binary32 on, a number rounds to infinity.
+        if (std::isfinite(x) && std::fabs(x) >= 0x1.ffffffp127)
             refuse(fmt::format("{} is beyond the range of a float", x));
-        }
         return static_cast<double>(static_cast<float>(x));
     }
 
@@ -400,8 +403,11 @@ std::string JsonReader::type_of(std::string_view json) {
         sj::document document = impl_->open(json);
         std::string_view type;
         sj::value value;
-        if (document.get_object().find_field_unordered("@type").get(value) != simdjson::SUCCESS)
-            return {};
+        if (document.type() != sj::json_type::object)
+            throw DataError("the record is not a JSON object");
+        const auto error = document.get_object().find_field_unordered("@type").get(value);
+        if (error == simdjson::NO_SUCH_FIELD) return {};
+        if (error != simdjson::SUCCESS) throw simdjson::simdjson_error(error);
         if (value.get(type) != simdjson::SUCCESS) throw DataError("@type is not a string");
         return std::string(type.substr(type.rfind('/') + 1));
     } catch (const simdjson::simdjson_error& error) {
