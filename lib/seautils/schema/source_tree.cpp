@@ -101,6 +101,7 @@ std::string SourceTree::add_file(const std::string& path) {
 }
 
 std::string SourceTree::add_text(const std::string& name, const std::string& text) {
+    if (text.size() > max_file_bytes) throw ConfigError(name + ": larger than 1 MiB");
     texts_[name] = text;
     return name;
 }
