@@ -181,6 +181,14 @@ lint_of() {
     [[ $stderr == 'dccl-info: broken.proto:1'* ]] || fail "$stderr"
 }
 
+@test "dccl-info: a schema may come through a pipe" {
+    schema piped 'message M { option (dccl.msg) = { id: 1 max_bytes: 32 codec_version: 4 }; required bool b = 1; }'
+    run_quiet dccl-info -s <(cat piped.proto)
+    assert_line --index 0 --partial 'M: id 1'
+    run -78 --separate-stderr dccl-info -s /dev/zero
+    [[ $stderr == 'dccl-info: /dev/zero: larger than 1 MiB' ]] || fail "$stderr"
+}
+
 @test "dccl-info: a full disk is 74, help and version are 0 and on standard output" {
     run -74 bash -c "dccl-info -s $schemas > /dev/full"
     run_quiet dccl-info --help

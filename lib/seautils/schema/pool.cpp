@@ -17,7 +17,10 @@
 #include <google/protobuf/wrappers.pb.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 
 namespace seautils::schema {
 
@@ -28,6 +31,7 @@ using google::protobuf::Descriptor;
 using google::protobuf::FileDescriptor;
 
 constexpr std::size_t max_files = 1000;
+constexpr std::size_t max_text_bytes = 1U << 20;
 constexpr int max_folder_depth = 16;
 
 /// Keeps the first faults that protobuf finds.
@@ -98,6 +102,16 @@ void find_protos(const fs::path& folder, int depth, std::vector<std::string>& fo
     }
 }
 
+/// What comes out of a pipe; one byte more than a schema may have where it is too long.
+std::string text_of(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in.is_open()) throw Error(ExitCode::no_input, path + ": " + std::strerror(errno));
+    std::string text(max_text_bytes + 1, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    return text;
+}
+
 void collect(const Descriptor& message, std::vector<const Descriptor*>& all) {
     if (message.options().map_entry()) return;
     all.push_back(&message);
@@ -148,7 +162,11 @@ void Pool::load(const std::string& path) {
             return impl_->compile(std::string(file.path));
     }
     std::error_code error;
-    if (!fs::is_directory(path, error)) return impl_->compile(impl_->tree.add_file(path));
+    const fs::file_type type = fs::status(path, error).type();
+    if (type == fs::file_type::fifo || type == fs::file_type::character) {
+        return load_text(path, text_of(path));
+    }
+    if (type != fs::file_type::directory) return impl_->compile(impl_->tree.add_file(path));
     std::vector<std::string> found;
     find_protos(path, 0, found);
     if (found.empty()) throw Error(ExitCode::no_input, path + ": no .proto file in this folder");
