@@ -9,11 +9,12 @@ namespace seautils::schema {
 void append_integer(std::string& out, std::int64_t x);
 void append_integer(std::string& out, std::uint64_t x);
 
-/// Appends the shortest decimal that reads back as the same double: plain from 1e-4 to 1e16, with
-/// an exponent beyond; `nan`, `inf`, `-inf`.
+/// Appends the shortest decimal that reads back as the same double: plain from 1e-4 to 1e16, and
+/// where six decimals are enough; with an exponent beyond; `nan`, `inf`, `-inf`.
 void append_double(std::string& out, double x);
 
-/// The same for a binary32 number, which reads back the same when it is rounded to binary32.
+/// The same for a binary32 number, which reads back the same when it is rounded to binary32. A
+/// whole number below 1e9 is written out.
 void append_float(std::string& out, float x);
 
 }  // namespace seautils::schema
