@@ -123,6 +123,27 @@ TEST(DcclNumber, BoundsThatStepsCannotCountAreTakenByTheFormatsWay) {
     EXPECT_FALSE(dccl::make_number_code(Kind::int32, 0, 100, 0.5, true).counts_steps);
 }
 
+TEST(DcclNumber, StepsOfPrecisionAreThoseOfPow) {
+    for (int precision = -308; precision <= 323; ++precision) {
+        EXPECT_EQ(dccl::step_of_precision(precision), std::pow(10.0, -precision)) << precision;
+    }
+}
+
+TEST(DcclNumber, IntegersOfAllOf64BitsInSteps) {
+    const double most = 9223372036854775808.0;  // 2^63
+    const NumberCode c = dccl::make_number_code(Kind::int64, -most, most, 8192, false);
+    EXPECT_EQ(c.width, 51);  // 2^64 / 8192 + 1 values, and "not set"
+    const std::int64_t low = std::numeric_limits<std::int64_t>::min();
+    for (const std::int64_t x : {low, low + 8192, std::int64_t{-8192}, std::int64_t{0},
+                                 std::int64_t{8192}, std::int64_t{1} << 62}) {
+        // From -2^63 on in steps of 2^13, and one for "not set".
+        const std::uint64_t steps =
+            (static_cast<std::uint64_t>(x) + (std::uint64_t{1} << 63)) >> 13;
+        ASSERT_EQ(dccl::encode_integer(c, x), steps + 1);
+        EXPECT_EQ(dccl::decode_integer(c, steps), x);
+    }
+}
+
 TEST(DcclNumber, WidthIsTheFormats) {
     EXPECT_EQ(dccl::bits_for(1), 0U);
     EXPECT_EQ(dccl::bits_for(2), 1U);

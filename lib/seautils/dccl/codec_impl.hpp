@@ -102,6 +102,7 @@ private:
     void selectors(const Op& op, const Frame& frame);
     void value(const Op& op, std::size_t at, std::uint32_t slot, const Frame& frame);
     void message(const Op& op, std::size_t at, std::uint32_t slot, const Frame& frame);
+    std::uint32_t block_of(const Op& op, std::uint32_t slot);
     bool take_null(const Op& op, std::uint64_t& code);
     void number(const Op& op, schema::Slot& slot);
     void enumeration(const Op& op, schema::Slot& slot);

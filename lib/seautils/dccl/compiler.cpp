@@ -154,9 +154,12 @@ void Compiler::field(const schema::Layout& layout, std::uint32_t index, std::vec
         part = options.in_head.value_or(false) ? Part::head : Part::body;
     }
     Place inside = place;
-    inside.part = is_message ? part : Part::undetermined;
+    // What encloses the message decides on the message, but its own in_head on what is inside.
+    inside.part = part;
+    if (is_message && options.in_head) inside.part = *options.in_head ? Part::head : Part::body;
     inside.path = place.path + f.name + (f.repeated ? "[]." : ".");
     inside.depth = place.depth + 1;
+    inside.both_passes = false;
     bool here = part == place.pass;
     if (part == Part::undetermined) {
         const CodecChoice codec = choose(f, options, place.path + f.name);
@@ -165,7 +168,7 @@ void Compiler::field(const schema::Layout& layout, std::uint32_t index, std::vec
         here = split || place.pass == Part::body;
     }
     if (!here) {
-        if (part == Part::head && !place.both_passes) add_lost(f, index, ops, place);
+        if (!place.both_passes) add_lost(f, index, ops, place);
         return;
     }
     const std::size_t at = ops.size();
@@ -191,6 +194,7 @@ void Compiler::add_lost(const schema::Field& f, std::uint32_t index, std::vector
     op.slot = index;
     op.repeated = f.repeated;
     op.field = &f;
+    op.in_head = place.pass == Part::body && place.part == Part::undetermined;
     op.end = static_cast<std::uint32_t>(ops.size()) + 1;
     ops.push_back(op);
     FieldReport row;
@@ -221,7 +225,7 @@ void Compiler::add(const schema::Field& f, std::uint32_t index, const FieldOptio
     op.field = &f;
     op.repeated = f.repeated;
     op.in_oneof = f.oneof >= 0;
-    op.required = is_required(f) || op.in_oneof;
+    op.required = is_required(f);
     conditions(op, options, path);
     const std::size_t at = ops.size();
     const std::size_t row = program_->report_.size();

@@ -91,6 +91,10 @@ void Decoder::repeated(const Op& op, std::size_t at, const Frame& frame) {
     const std::uint32_t list = frame.block + op.slot;
     // A version 2 message is entered once for the header and once for the body.
     const bool again = values_[list].present;
+    if (again && values_[list].aux != count) {
+        throw FieldError{"", fmt::format("counts {} elements in the body, but {} in the header",
+                                         count, values_[list].aux)};
+    }
     const std::uint32_t first =
         again ? static_cast<std::uint32_t>(values_[list].u) : values_.add_elements(list, count);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -98,9 +102,7 @@ void Decoder::repeated(const Op& op, std::size_t at, const Frame& frame) {
         try {
             if (op.condition >= 0) {
                 Frame self = inside;
-                if (is_message)
-                    self = {values_.add_block(first + k, *op.field->message), op.field->message,
-                            k + 1};
+                if (is_message) self = {block_of(op, first + k), op.field->message, k + 1};
                 if (dynamic().omitted(op, self)) {
                     values_[first + k].present = false;
                     continue;
@@ -117,7 +119,8 @@ void Decoder::repeated(const Op& op, std::size_t at, const Frame& frame) {
                              true};
         }
     }
-    if (is_message && !again && op.condition < 0) return;  // all are there
+    if (is_message && op.condition < 0) return;  // all are there
+    if (op.drop_empty) return;                   // prune() closes the gaps, after the body
     std::uint32_t kept = 0;
     for (std::uint32_t k = 0; k < count; ++k) {
         if (values_[first + k].present) values_[first + kept++] = values_[first + k];
@@ -170,9 +173,14 @@ void Decoder::value(const Op& op, std::size_t at, std::uint32_t slot, const Fram
     }
 }
 
+/// The message at the slot, which the header's pass may have made.
+std::uint32_t Decoder::block_of(const Op& op, std::uint32_t slot) {
+    if (values_[slot].present) return static_cast<std::uint32_t>(values_[slot].u);
+    return values_.add_block(slot, *op.field->message);
+}
+
 void Decoder::message(const Op& op, std::size_t at, std::uint32_t slot, const Frame& frame) {
-    const std::uint32_t block = values_[slot].present ? static_cast<std::uint32_t>(values_[slot].u)
-                                                      : values_.add_block(slot, *op.field->message);
+    const std::uint32_t block = block_of(op, slot);
     range(at + 1, ops_[at].end, {block, op.field->message, frame.index});
 }
 
@@ -266,6 +274,7 @@ void Decoder::prune(const std::vector<Pruning>& below, std::uint32_t block) {
         const std::uint32_t count = p.repeated ? values_[at].aux : 1;
         std::uint32_t kept = 0;
         for (std::uint32_t k = 0; k < count; ++k) {
+            if (!values_[first + k].present) continue;
             const auto inner = static_cast<std::uint32_t>(values_[first + k].u);
             prune(p.below, inner);
             bool empty = p.drop_empty;

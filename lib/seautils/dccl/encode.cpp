@@ -61,9 +61,11 @@ void Encoder::step(const Op& op, std::size_t at, const Frame& frame) {
             return selectors(op, frame);
         case OpKind::lost:
             if (values_[slot].present && !codec_.options.lenient) {
-                throw FieldError{"",
-                                 "is marked in_head inside of a message that is not in the "
-                                 "header: it is never sent (--lenient drops it)"};
+                throw FieldError{"", op.in_head
+                                         ? "is marked in_head inside of a message that is not in "
+                                           "the header: it is never sent (--lenient drops it)"
+                                         : "is inside of a message whose in_head differs from what "
+                                           "is around it: it is never sent (--lenient drops it)"};
             }
             return;
         default:

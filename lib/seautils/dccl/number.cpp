@@ -94,6 +94,10 @@ bool count_floats(NumberCode& c) {
 }  // namespace
 
 double step_of_precision(std::int32_t precision) {
+    // 10^23 lies between two doubles, as good as in the middle; pow, whose result is on the wire,
+    // takes the upper one. So it does for 10^210; all other powers are rounded correctly.
+    if (precision == -23) return 1.0000000000000001e23;
+    if (precision == -210) return 1.0000000000000001e210;
     const std::string text = fmt::format("1e{}", -static_cast<std::int64_t>(precision));
     double step = precision > 0 ? 0 : std::numeric_limits<double>::infinity();
     std::from_chars(text.data(), text.data() + text.size(), step);
@@ -153,11 +157,10 @@ std::optional<std::uint64_t> encode_integer_exactly(const NumberCode& c, std::in
     const std::int64_t rounded = quantize_integer(value, c);
     const double as_double = to_double(rounded, c.is_unsigned());
     if (as_double < c.min || as_double > c.max) return std::nullopt;
-    std::int64_t code = wrap_subtract(rounded, c.base);
+    std::int64_t code = wrap_subtract(rounded, c.base);  // never below 0: 64 bits hold it
     if (c.resolution != 1) {
-        const double steps = to_double(code, c.is_unsigned());
-        code =
-            to_bits(c.resolution > 1 ? steps / c.resolution : steps * c.inverse, c.is_unsigned());
+        const double steps = to_double(code, true);
+        code = to_bits(c.resolution > 1 ? steps / c.resolution : steps * c.inverse, true);
     }
     return static_cast<std::uint64_t>(code) + (c.null_code ? 1 : 0);
 }
@@ -182,7 +185,7 @@ std::int64_t decode_integer_exactly(const NumberCode& c, std::uint64_t raw) {
     auto steps = static_cast<std::int64_t>(raw);
     if (c.resolution != 1) {
         const auto code = static_cast<double>(raw);
-        steps = to_bits(c.resolution > 1 ? code * c.resolution : code / c.inverse, c.is_unsigned());
+        steps = to_bits(c.resolution > 1 ? code * c.resolution : code / c.inverse, true);
     }
     return narrow(quantize_integer(wrap_add(steps, c.base), c), c.kind);
 }

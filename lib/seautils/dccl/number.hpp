@@ -42,7 +42,8 @@ struct NumberCode {
     }
 };
 
-/// 10^-precision, correctly rounded: the step that an option `precision` means.
+/// 10^-precision as pow(10.0, -precision) of the GNU C library gives it, on any machine: the step
+/// that an option `precision` means.
 double step_of_precision(std::int32_t precision);
 
 /// ceil(log2(n)) with log2 rounded to a double, as the reference computes it, without libm.

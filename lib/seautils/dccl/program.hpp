@@ -30,6 +30,7 @@ struct Op {
     bool in_oneof = false;        ///< takes no bits unless it is the selected member
     bool required = false;        ///< R of the specification: no null code, no presence bit
     bool drop_empty = false;      ///< version 2 message: nothing set inside means absent
+    bool in_head = false;         ///< lost: its own in_head says that it is a header field
     TextForm text_form = TextForm::counted;
     CclCodec ccl = CclCodec::latloncompressed;
     std::uint8_t count_width = 0;   ///< repeated: bits of the count
