@@ -171,6 +171,7 @@ Compiler::Bits Compiler::element(Op& op, const FieldOptions& options, const Code
         bits = {op.number.width, op.number.width};
     } else if (kind == Kind::enumeration) {
         bits = enumeration(op, options, codec.version, path);
+        program_->enums_[op.extra].hashed = codec.family != Family::presence;
     } else {
         bits = number(op, options, path);
     }

@@ -5,8 +5,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace seautils::dccl {
+
+namespace {
+
+/// The rule of static bounds: on the grid, where the schema says `resolution`.
+void check_grid(const Op& op, double bound) {
+    const NumberCode& n = op.number;
+    if (std::fabs(quantize(bound, n.resolution, n.inverse) - bound) < 1e-10) return;
+    if (!field_options(*op.field->descriptor).resolution) return;
+    throw DataError(
+        fmt::format("dynamic bound {} is no multiple of resolution {}", bound, n.resolution));
+}
+
+}  // namespace
 
 bool Dynamic::test(const std::string& script, const Frame& self) {
     return engine_.test(script, values_, root(), {self.layout, self.block}, self.index);
@@ -49,6 +63,8 @@ Op Dynamic::effective(const Op& op, const Frame& self) {
         };
         min = bound(c.scripts.min, n.min);
         max = bound(c.scripts.max, n.max);
+        check_grid(op, min);
+        check_grid(op, max);
         changed = true;
     }
     if (!changed) return result;

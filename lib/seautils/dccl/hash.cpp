@@ -47,7 +47,7 @@ std::string field_text(const google::protobuf::FieldDescriptor& field) {
 class Hasher {
 public:
     Hasher(const Program& program, const std::vector<Op>& ops)
-        : ops_(ops), pool_(*program.layout().descriptor->file()->pool()) {}
+        : program_(program), ops_(ops), pool_(*program.layout().descriptor->file()->pool()) {}
 
     std::uint64_t part(const Descriptor& message, std::size_t first, std::size_t last) const {
         std::uint64_t h = 0;
@@ -73,10 +73,11 @@ private:
         h = comb(h, std_string_hash(
                         options_text(pool_, "dccl.DCCLFieldOptions", raw_field_options(f), true)));
         if (op.kind == OpKind::message) return comb(h, part(*f.message_type(), at + 1, op.end));
-        const bool default_enum = op.kind == OpKind::enumeration && !op.presence_bit;
-        return comb(h, default_enum ? std_string_hash(f.enum_type()->DebugString()) : 0);
+        const bool hashed = op.kind == OpKind::enumeration && program_.enum_code(op).hashed;
+        return comb(h, hashed ? std_string_hash(f.enum_type()->DebugString()) : 0);
     }
 
+    const Program& program_;
     const std::vector<Op>& ops_;
     const google::protobuf::DescriptorPool& pool_;
 };

@@ -54,6 +54,7 @@ struct Op {
 /// Side tables, by Op::extra.
 struct EnumCode {
     bool packed = true;
+    bool hashed = true;  ///< its text counts in the definition's hash: not with the presence codec
     /// Packed: number of each position; and (number, position) sorted by number.
     std::vector<std::int32_t> numbers;
     std::vector<std::pair<std::int32_t, std::uint32_t>> positions;
