@@ -18,7 +18,8 @@ namespace seautils::schema {
 /// A file's imports are looked for in: the files built into seautils (`dccl/option_extensions.proto`
 /// and its four neighbours, `google/protobuf/*.proto`), then the folder that the file itself lies in
 /// and its parents up to four levels (so that `import "a/b.proto"` works from within a/), then the
-/// folders given to the constructor. Limits: 1 MiB a file, 1000 files, nesting 32, 100,000 fields.
+/// folders given to the constructor. Limits: 1 MiB a file, 16 MiB and 1000 files
+/// in all, 100,000 fields, and those of source_check.hpp.
 class Pool {
 public:
     explicit Pool(std::vector<std::string> import_folders = {});

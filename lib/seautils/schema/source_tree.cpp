@@ -2,6 +2,7 @@
 
 #include "seautils/core/error.hpp"
 #include "seautils/schema/builtin_files.hpp"
+#include "seautils/schema/source_check.hpp"
 
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t max_file_bytes = 1U << 20;
 constexpr std::size_t max_files = 1000;
-constexpr int max_nesting = 64;
+constexpr std::size_t max_bytes = 1U << 24;  ///< in all
 constexpr int parent_folders = 4;
 
 /// A stream that owns its text.
@@ -37,37 +38,6 @@ private:
     std::string text_;
     google::protobuf::io::ArrayInputStream stream_;
 };
-
-/// Where a comment or string that begins at `at` ends; `at` itself where none begins.
-std::size_t skip_opaque(const std::string& text, std::size_t at) {
-    if (text.compare(at, 2, "//") == 0) return std::min(text.find('\n', at), text.size());
-    if (text.compare(at, 2, "/*") == 0) {
-        const std::size_t end = text.find("*/", at + 2);
-        return end == std::string::npos ? text.size() : end + 1;
-    }
-    if (text[at] != '"' && text[at] != '\'') return at;
-    for (std::size_t k = at + 1; k < text.size(); ++k) {
-        if (text[k] == '\\')
-            ++k;
-        else if (text[k] == text[at] || text[k] == '\n')
-            return k;
-    }
-    return text.size();
-}
-
-/// Deepest nesting of brackets: protobuf's parser recurses with it and has no limit of its own.
-bool nests_too_deep(const std::string& text) {
-    int depth = 0;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        at = skip_opaque(text, at);
-        if (at >= text.size()) break;
-        const char c = text[at];
-        if (c == '{' || c == '[' || c == '(' || c == '<') ++depth;
-        if (c == '}' || c == ']' || c == ')' || c == '>') --depth;
-        if (depth > max_nesting) return true;
-    }
-    return false;
-}
 
 }  // namespace
 
@@ -131,10 +101,9 @@ google::protobuf::io::ZeroCopyInputStream* SourceTree::serve(std::string text) {
         error_ = "more than 1000 files";
         return nullptr;
     }
-    if (nests_too_deep(text)) {
-        error_ = "nested deeper than 64 brackets";
-        return nullptr;
-    }
+    bytes_ += text.size();
+    error_ = bytes_ > max_bytes ? "more than 16 MiB in all" : source_fault(text);
+    if (!error_.empty()) return nullptr;
     return new OwnedText(std::move(text));
 }
 

@@ -40,7 +40,7 @@ private:
     std::map<std::string, std::string> paths_;  ///< by protobuf's name
     std::map<std::string, std::string> shown_;
     std::map<std::string, std::string> texts_;
-    std::size_t opened_ = 0;
+    std::size_t opened_ = 0, bytes_ = 0;
     std::string error_;
 };
 
