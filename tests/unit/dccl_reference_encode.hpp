@@ -213,7 +213,7 @@ inline bool drops(const Walk& head, const Walk& body, const Message& m, const Va
     return false;
 }
 
-inline Encoded encode(const Message& root, const Value& value, bool header_only) {
+inline Encoded encode(const Message& root, const Value& value, bool header_only = false) {
     Encoder head(root, Part::head), body(root, Part::body);
     if (!root.omit_id) {
         put(head.bits, static_cast<std::uint64_t>(root.id) * 2 + (root.id < 128 ? 0 : 1),

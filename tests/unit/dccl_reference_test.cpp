@@ -197,5 +197,52 @@ INSTANTIATE_TEST_SUITE_P(Dccl, ByReference,
                                          std::tuple(4, false), std::tuple(3, true),
                                          std::tuple(4, true)));
 
+// The model of the format, of which the other tests make so much.
+
+TEST(DcclReference, GivesTheWorkedExamples) {
+    namespace r = reference;
+    const auto bytes = [](r::Field f, double value, int id, int version) {
+        r::Message m;
+        m.id = id;
+        m.version = version;
+        r::Value v;
+        v.items.resize(1);
+        v.items[0].set = true;
+        v.items[0].real = value;
+        v.items[0].whole = static_cast<r::Int>(value);
+        m.fields.push_back(std::move(f));
+        return hex(r::encode(m, v).bytes);
+    };
+    r::Field f;
+    f.type = r::Type::int32;
+    f.min = -500;
+    f.max = 500;
+    f.precision = -1;
+    EXPECT_EQ(bytes(f, -17, 32, 4), "4032");
+    f.type = r::Type::uint32;
+    f.min = 0;
+    f.max = 254;
+    f.precision.reset();
+    EXPECT_EQ(bytes(f, 128, 128, 4), "010181");
+    f.type = r::Type::float64;
+    f.label = r::Label::required;
+    f.min = -56;
+    f.max = -43.3;
+    f.precision = 1;
+    EXPECT_EQ(r::number_of(f, {"dccl.default", 4}, true).bits(), 8U);
+    EXPECT_EQ(bytes(f, -43.3, 43, 4), "567f");
+    r::Field time;
+    time.type = r::Type::float64;
+    time.label = r::Label::required;
+    time.codec = "dccl.time";
+    EXPECT_EQ(bytes(time, 1.7e9, 110, 3), "dc803801");
+    r::Field text;
+    text.type = r::Type::string;
+    text.max_length = 3;
+    EXPECT_EQ(r::text_size(text, {"dccl.default", 2}, false).max, 8U + 24);
+    EXPECT_EQ(r::text_size(text, {"dccl.default", 3}, false).max, 2U + 24);
+    EXPECT_EQ(r::text_size(text, {"dccl.default", 4}, false).max, 1U + 2 + 24);
+}
+
 }  // namespace
 }  // namespace seautils::dccl
