@@ -52,7 +52,9 @@ void unreachable_bound(const FieldReport& row, std::vector<Remark>& out) {
 
 void cut_values(const FieldReport& row, std::vector<Remark>& out) {
     const double step = row.number.resolution;
-    if (row.kind != OpKind::integer || step <= 1 || step == std::trunc(step)) return;
+    // A step of 0.5 is exact, for 1 is two of them; 1 is 3.33 steps of 0.3, and comes back as 0.
+    const double steps = step < 1 ? row.number.inverse : step;
+    if (row.kind != OpKind::integer || steps == std::trunc(steps)) return;
     out.push_back(
         {"cut-values", row.path,
          fmt::format("whole numbers in steps of {} are cut, not rounded: up to {} too small", step,
@@ -73,8 +75,9 @@ void field_remarks(const FieldReport& row, int version, std::vector<Remark>& out
     if (row.lost) {
         out.push_back(
             {"lost-field", row.path,
-             fmt::format("in_head inside of a body message: codec version {} never sends it",
-                         version)});
+             fmt::format(
+                 "in_head differs from the message around it: codec version {} never sends it",
+                 version)});
         return;
     }
     const FieldOptions options = field_options(*row.field->descriptor);
