@@ -2,6 +2,7 @@
 // that reads command lines, which no user is to meet.
 #include "seautils/cli/app.hpp"
 #include "seautils/core/error.hpp"
+#include "temp_folder.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -11,8 +12,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -116,17 +115,11 @@ void expect_usage(const Words& words, const std::string& what) {
 
 class File {
 public:
-    explicit File(const std::string& text)
-        : path_((std::filesystem::temp_directory_path() / "seautils-XXXXXX").string()) {
-        ::close(::mkstemp(path_.data()));
-        std::ofstream(path_, std::ios::binary) << text;
-    }
-    ~File() { std::filesystem::remove(path_); }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
+    explicit File(const std::string& text) : path_(folder_.add("file", text)) {}
     const std::string& path() const { return path_; }
 
 private:
+    TempFolder folder_;
     std::string path_;
 };
 

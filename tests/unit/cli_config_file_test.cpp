@@ -1,13 +1,10 @@
 // Configuration in layers: what may be said, where it is wrong, and who wins.
 #include "seautils/cli/config_file.hpp"
 #include "seautils/core/error.hpp"
+#include "temp_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 namespace seautils::cli {
 namespace {
@@ -31,23 +28,6 @@ std::string fault(const std::string& text) {
     }
     return "taken";
 }
-
-class Folder {
-public:
-    Folder() : path_((std::filesystem::temp_directory_path() / "seautils-XXXXXX").string()) {
-        EXPECT_NE(::mkdtemp(path_.data()), nullptr);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string add(const std::string& name, const std::string& text) const {
-        std::ofstream(path_ + "/" + name, std::ios::binary) << text;
-        return path_ + "/" + name;
-    }
-
-private:
-    std::string path_;
-};
 
 }  // namespace
 
@@ -85,7 +65,7 @@ TEST(CliConfigFile, KeysAreNotGuessedFromTheirBeginning) {
 }
 
 TEST(CliConfigFile, TheFirstFileToSayAThingWins) {
-    const Folder folder;
+    const TempFolder folder;
     const std::string vehicle = folder.add("vehicle.conf", "max-record = 1\nschema = v.proto\n");
     const std::string fleet =
         folder.add("fleet.conf",
@@ -102,7 +82,7 @@ TEST(CliConfigFile, TheFirstFileToSayAThingWins) {
 }
 
 TEST(CliConfigFile, FilesThatCannotBeRead) {
-    const Folder folder;
+    const TempFolder folder;
     const auto status = [](const std::string& file) {
         try {
             read_config({file}, options);

@@ -4,9 +4,7 @@
 #include "dccl_bench.hpp"
 #include "seautils/dccl/raw_stream.hpp"
 #include "seautils/schema/json.hpp"
-
-#include <filesystem>
-#include <fstream>
+#include "temp_folder.hpp"
 
 namespace seautils::dccl {
 namespace {
@@ -14,19 +12,11 @@ namespace {
 /// Schemas as files of a folder that lasts as long as the test.
 class DcclTypeSet : public testing::Test {
 protected:
-    DcclTypeSet() : folder_(testing::TempDir() + "dccl_type_set") {
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    ~DcclTypeSet() override { std::filesystem::remove_all(folder_); }
-
-    std::string file(const std::string& name, const std::string& text) {
-        const std::string path = folder_ + "/" + name;
+    std::string file(const std::string& name, const std::string& text) const {
         const bool xml = name.ends_with(".xml");
-        std::ofstream(path)
-            << (xml ? "" : "syntax = \"proto2\"; import \"dccl/option_extensions.proto\"; ")
-            << text;
-        return path;
+        return folder_.add(
+            name,
+            (xml ? "" : "syntax = \"proto2\"; import \"dccl/option_extensions.proto\"; ") + text);
     }
 
     static std::string type(
@@ -67,7 +57,7 @@ protected:
     }
 
     CodecOptions options;
-    std::string folder_;
+    const TempFolder folder_;
 };
 
 using List = std::vector<std::string>;
@@ -111,7 +101,7 @@ TEST_F(DcclTypeSet, EqualCodesOfOtherLengthsDoNotCollide) {
 TEST_F(DcclTypeSet, FilesAndFoldersAndNames) {
     const std::string a = file("a.proto", "package a; " + type("M", "id: 1") + type("N", "id: 2"));
     file("b.proto", "package b; " + type("M", "id: 3"));
-    TypeSet set = load({folder_});
+    TypeSet set = load({folder_.path()});
     EXPECT_EQ(names(set), (List{"a.M", "a.N", "b.M"}));
     EXPECT_EQ(set.type("a.M").program->id(), 1);
     EXPECT_EQ(set.type("N").name, "a.N");
@@ -122,12 +112,12 @@ TEST_F(DcclTypeSet, FilesAndFoldersAndNames) {
     } catch (const DataError& e) {
         EXPECT_STREQ(e.what(), "type 'a.NN' is not loaded (did you mean 'a.N'?)");
     }
-    TypeSet chosen = load({folder_}, {"b.M", "a.N", "b.M"});
+    TypeSet chosen = load({folder_.path()}, {"b.M", "a.N", "b.M"});
     EXPECT_EQ(names(chosen), (List{"b.M", "a.N"}));
     EXPECT_EQ(chosen.usual()->name, "b.M") << "the first chosen";
     EXPECT_EQ(load({a}, {"N"}).usual()->name, "a.N");
     EXPECT_THROW(load({a}, {"X"}), ConfigError);
-    EXPECT_THROW(load({folder_ + "/none.proto"}), Error);
+    EXPECT_THROW(load({folder_.file("none.proto")}), Error);
 }
 
 TEST_F(DcclTypeSet, TypesThatCannotBeCodedAreLeftOutUnlessChosen) {

@@ -2,14 +2,13 @@
 #include "seautils/core/error.hpp"
 #include "seautils/schema/builtin_files.hpp"
 #include "seautils/schema/pool.hpp"
+#include "temp_folder.hpp"
 
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 namespace seautils::schema {
 namespace {
@@ -20,27 +19,17 @@ namespace fs = std::filesystem;
 /// name files as a user would.
 class Folder {
 public:
-    Folder() : before_(fs::current_path()) {
-        std::string name = (fs::temp_directory_path() / "seautils-XXXXXX").string();
-        EXPECT_NE(::mkdtemp(name.data()), nullptr);
-        path_ = fs::canonical(name);
-        fs::current_path(path_);
-    }
-    ~Folder() {
-        fs::current_path(before_);
-        fs::remove_all(path_);
-    }
+    Folder() : before_(fs::current_path()) { fs::current_path(folder_.path()); }
+    ~Folder() { fs::current_path(before_); }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
 
-    static void add(const fs::path& name, const std::string& text) {
-        if (name.has_parent_path()) fs::create_directories(name.parent_path());
-        std::ofstream(name, std::ios::binary) << text;
-    }
-    std::string path() const { return path_.string(); }
+    void add(const std::string& name, const std::string& text) const { folder_.add(name, text); }
+    std::string path() const { return folder_.path(); }
 
 private:
-    fs::path before_, path_;
+    fs::path before_;
+    TempFolder folder_;
 };
 
 std::string proto2(const std::string& rest) { return "syntax = \"proto2\";\n" + rest; }
@@ -130,14 +119,14 @@ TEST(SchemaPool, OptionsOfDcclAtTheirNumbers) {
 
 TEST(SchemaPool, ImportsAreFoundBesideTheFileAndAbove) {
     const Folder folder;
-    Folder::add(
+    folder.add(
         "fleet/a/b/c/leaf.proto",
         proto2(
             "import \"beside.proto\"; import \"b/c/from_a.proto\"; import \"a/b/top.proto\";"
             "message Leaf { optional Beside x = 1; optional FromA y = 2; optional Top z = 3; }"));
-    Folder::add("fleet/a/b/c/beside.proto", proto2("message Beside {}"));
-    Folder::add("fleet/a/b/c/from_a.proto", proto2("message FromA {}"));
-    Folder::add("fleet/a/b/top.proto", proto2("message Top {}"));
+    folder.add("fleet/a/b/c/beside.proto", proto2("message Beside {}"));
+    folder.add("fleet/a/b/c/from_a.proto", proto2("message FromA {}"));
+    folder.add("fleet/a/b/top.proto", proto2("message Top {}"));
     EXPECT_EQ(fault("fleet/a/b/c/leaf.proto"), "");
     EXPECT_EQ(fault(folder.path() + "/fleet/a/b/c/leaf.proto"), "");
     Pool pool;
@@ -148,12 +137,12 @@ TEST(SchemaPool, ImportsAreFoundBesideTheFileAndAbove) {
 
 TEST(SchemaPool, ImportFoldersComeLast) {
     const Folder folder;
-    Folder::add("here/main.proto",
-                proto2("import \"common.proto\"; message M { optional Common c = 1; }"));
-    Folder::add("lib/common.proto", proto2("message Common { optional int32 of_lib = 1; }"));
+    folder.add("here/main.proto",
+               proto2("import \"common.proto\"; message M { optional Common c = 1; }"));
+    folder.add("lib/common.proto", proto2("message Common { optional int32 of_lib = 1; }"));
     EXPECT_EQ(fault("here/main.proto").substr(0, 23), "78 here/main.proto:2:1:");
     EXPECT_EQ(fault("here/main.proto", {"lib"}), "");
-    Folder::add("here/common.proto", proto2("message Common { optional int32 of_here = 1; }"));
+    folder.add("here/common.proto", proto2("message Common { optional int32 of_here = 1; }"));
     Pool pool({"lib"});
     pool.load("here/main.proto");
     EXPECT_EQ(pool.message("M").field(0)->message_type()->field(0)->name(), "of_here");
@@ -161,9 +150,9 @@ TEST(SchemaPool, ImportFoldersComeLast) {
 
 TEST(SchemaPool, AFileIsOneByWhateverNameItIsReached) {
     const Folder folder;
-    Folder::add("f/x.proto", proto2("package p; message X {}"));
-    Folder::add("f/y.proto", proto2("package p; import \"x.proto\"; import \"f/x.proto\";"
-                                    "message Y { optional X x = 1; }"));
+    folder.add("f/x.proto", proto2("package p; message X {}"));
+    folder.add("f/y.proto", proto2("package p; import \"x.proto\"; import \"f/x.proto\";"
+                                   "message Y { optional X x = 1; }"));
     fs::create_symlink("f", "link");
     Pool pool;
     for (const char* path :
@@ -174,16 +163,16 @@ TEST(SchemaPool, AFileIsOneByWhateverNameItIsReached) {
 
 TEST(SchemaPool, AFolderIsLoadedInOrderOfName) {
     const Folder folder;
-    Folder::add("s/b.proto", proto2("message B {}"));
-    Folder::add("s/a/z.proto", proto2("message Z { message Inner {} map<string, int32> m = 1; }"));
-    Folder::add("s/c.proto", proto2("message C {}"));
-    Folder::add("s/.hidden.proto", "nonsense");
-    Folder::add("s/notes.txt", "nonsense");
-    Folder::add("s/dccl/option_extensions.proto", "not looked at: it is built in");
+    folder.add("s/b.proto", proto2("message B {}"));
+    folder.add("s/a/z.proto", proto2("message Z { message Inner {} map<string, int32> m = 1; }"));
+    folder.add("s/c.proto", proto2("message C {}"));
+    folder.add("s/.hidden.proto", "nonsense");
+    folder.add("s/notes.txt", "nonsense");
+    folder.add("s/dccl/option_extensions.proto", "not looked at: it is built in");
     Pool pool;
     pool.load("s");
     EXPECT_EQ(names(pool), (std::vector<std::string>{"Z", "Z.Inner", "B", "C"}));
-    Folder::add("empty/notes.txt", "");
+    folder.add("empty/notes.txt", "");
     EXPECT_EQ(fault("empty"), "66 empty: no .proto file in this folder");
 }
 
@@ -195,45 +184,45 @@ TEST(SchemaPool, WhatCannotBeOpenedIsNoInput) {
 
 TEST(SchemaPool, FaultsArePlacedInTheFileThatHasThem) {
     const Folder folder;
-    Folder::add("bad.proto", proto2("message M {\n  optional int32 a = 1\n}\n"));
+    folder.add("bad.proto", proto2("message M {\n  optional int32 a = 1\n}\n"));
     EXPECT_EQ(fault("bad.proto"), "78 bad.proto:4:1: expected \";\"");
-    Folder::add("type.proto", proto2("message M {\n  optional Nothing a = 1;\n}\n"));
+    folder.add("type.proto", proto2("message M {\n  optional Nothing a = 1;\n}\n"));
     EXPECT_EQ(fault("type.proto"), "78 type.proto:3:12: \"Nothing\" is not defined");
-    Folder::add("missing.proto", proto2("import \"gone.proto\";\nmessage M {}\n"));
+    folder.add("missing.proto", proto2("import \"gone.proto\";\nmessage M {}\n"));
     EXPECT_EQ(fault("missing.proto"),
               "78 missing.proto:2:1: import \"gone.proto\" was not found or had errors "
               "(gone.proto: not found)");
-    Folder::add("sub/inner.proto", proto2("message {\n"));
-    Folder::add("outer.proto", proto2("import \"sub/inner.proto\";\nmessage M {}\n"));
+    folder.add("sub/inner.proto", proto2("message {\n"));
+    folder.add("outer.proto", proto2("import \"sub/inner.proto\";\nmessage M {}\n"));
     const std::string inner = fault("outer.proto");
     EXPECT_NE(inner.find("sub/inner.proto:2:9: expected message name"), std::string::npos) << inner;
-    Folder::add("twice.proto", proto2("message M { optional int32 a = 1; }\nmessage M {}\n"));
+    folder.add("twice.proto", proto2("message M { optional int32 a = 1; }\nmessage M {}\n"));
     EXPECT_EQ(fault("twice.proto"), "78 twice.proto:3:9: \"M\" is already defined");
-    Folder::add("number.proto",
-                proto2("message M {\n optional int32 a = 1;\n optional int32 b = 1; }"));
+    folder.add("number.proto",
+               proto2("message M {\n optional int32 a = 1;\n optional int32 b = 1; }"));
     EXPECT_TRUE(fault("number.proto")
                     .starts_with("78 number.proto:4:21: field number 1 has already been used"))
         << fault("number.proto");
-    Folder::add("option.proto", proto2("import \"dccl/option_extensions.proto\";\nmessage M {\n"
-                                       " optional int32 a = 1 [(dccl.field).mni = 1]; }"));
+    folder.add("option.proto", proto2("import \"dccl/option_extensions.proto\";\nmessage M {\n"
+                                      " optional int32 a = 1 [(dccl.field).mni = 1]; }"));
     EXPECT_TRUE(fault("option.proto").starts_with("78 option.proto:4:")) << fault("option.proto");
-    Folder::add("noise.proto", "\x01\xff\xfe{");
+    folder.add("noise.proto", "\x01\xff\xfe{");
     EXPECT_TRUE(fault("noise.proto").starts_with("78 noise.proto:1:")) << fault("noise.proto");
 }
 
 TEST(SchemaPool, CirclesOfImportsAreRefused) {
     const Folder folder;
-    Folder::add("self.proto", proto2("import \"self.proto\"; message M {}"));
+    folder.add("self.proto", proto2("import \"self.proto\"; message M {}"));
     EXPECT_NE(fault("self.proto").find("78 self.proto"), std::string::npos) << fault("self.proto");
-    Folder::add("a.proto", proto2("import \"b.proto\"; message A {}"));
-    Folder::add("b.proto", proto2("import \"a.proto\"; message B {}"));
+    folder.add("a.proto", proto2("import \"b.proto\"; message A {}"));
+    folder.add("b.proto", proto2("import \"a.proto\"; message B {}"));
     EXPECT_TRUE(fault("a.proto").starts_with("78 ")) << fault("a.proto");
 }
 
 TEST(SchemaPool, TheSameTypeInTwoFilesIsRefused) {
     const Folder folder;
-    Folder::add("one.proto", proto2("package p; message Same { optional int32 a = 1; }"));
-    Folder::add("two.proto", proto2("package p; message Same { optional int32 b = 1; }"));
+    folder.add("one.proto", proto2("package p; message Same { optional int32 a = 1; }"));
+    folder.add("two.proto", proto2("package p; message Same { optional int32 b = 1; }"));
     Pool pool;
     pool.load("one.proto");
     try {
@@ -279,8 +268,8 @@ TEST(SchemaPool, MessagesByName) {
 
 TEST(SchemaPool, PlacesOfFields) {
     const Folder folder;
-    Folder::add("p.proto", proto2("message Leg {\n  optional int32 seq = 1;\n}\n"
-                                  "message M {\n  repeated Leg leg = 1;\n}\n"));
+    folder.add("p.proto", proto2("message Leg {\n  optional int32 seq = 1;\n}\n"
+                                 "message M {\n  repeated Leg leg = 1;\n}\n"));
     Pool pool;
     pool.load("p.proto");
     const auto& m = pool.message("M");
@@ -296,18 +285,18 @@ TEST(SchemaPool, PlacesOfFields) {
 TEST(SchemaPool, LimitsOfFiles) {
     const Folder folder;
     const std::string comment = "//" + std::string((1U << 20) - 60, 'x') + "\n";
-    Folder::add("large.proto", proto2("message M {}\n" + comment));
+    folder.add("large.proto", proto2("message M {}\n" + comment));
     EXPECT_EQ(fault("large.proto"), "");
-    Folder::add("larger.proto", proto2("message M {}\n" + comment + comment));
+    folder.add("larger.proto", proto2("message M {}\n" + comment + comment));
     EXPECT_NE(fault("larger.proto").find("1 MiB"), std::string::npos) << fault("larger.proto");
-    Folder::add("importer.proto", proto2("import \"larger.proto\";"));
+    folder.add("importer.proto", proto2("import \"larger.proto\";"));
     EXPECT_NE(fault("importer.proto").find("1 MiB"), std::string::npos) << fault("importer.proto");
     std::string chain;
     for (int k = 0; k < 1100; ++k)
-        Folder::add(fmt::format("many/f{}.proto", k), proto2(fmt::format("message M{} {{}}", k)));
+        folder.add(fmt::format("many/f{}.proto", k), proto2(fmt::format("message M{} {{}}", k)));
     EXPECT_EQ(fault("many"), "78 many: more than 1000 .proto files");
     for (int k = 0; k < 1100; ++k) chain += fmt::format("import \"many/f{}.proto\";\n", k);
-    Folder::add("all.proto", proto2(chain));
+    folder.add("all.proto", proto2(chain));
     EXPECT_NE(fault("all.proto").find("1000 files"), std::string::npos) << fault("all.proto");
 }
 
@@ -395,10 +384,10 @@ TEST(SchemaPool, BytesInAll) {
     const std::string comment = "//" + std::string((1U << 20) - 100, 'x') + "\n";
     std::string imports;
     for (int k = 0; k < 18; ++k) {
-        Folder::add(fmt::format("part{}.proto", k), proto2(comment));
+        folder.add(fmt::format("part{}.proto", k), proto2(comment));
         imports += fmt::format("import \"part{}.proto\";\n", k);
     }
-    Folder::add("all.proto", proto2(imports));
+    folder.add("all.proto", proto2(imports));
     EXPECT_NE(fault("all.proto").find("16 MiB"), std::string::npos) << fault("all.proto");
 }
 

@@ -2,6 +2,7 @@
 #include "seautils/core/error.hpp"
 #include "seautils/stream/hex.hpp"
 #include "seautils/stream/input.hpp"
+#include "temp_folder.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -295,20 +296,6 @@ TEST(StreamInput, AReadThatFailsIsSaid) {
 
 namespace {
 
-/// A folder that is gone afterwards.
-struct Folder {
-    Folder() : path(std::filesystem::temp_directory_path() / "seautils-XXXXXX") {
-        std::string name = path.string();
-        EXPECT_NE(::mkdtemp(name.data()), nullptr);
-        path = name;
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string file(const std::string& name) const { return (path / name).string(); }
-    std::filesystem::path path;
-};
-
 void write_file(const std::string& path, std::string_view text,
                 std::ios::openmode mode = std::ios::trunc) {
     std::ofstream(path, std::ios::binary | mode) << text;
@@ -336,7 +323,7 @@ Strings followed(const std::string& path, std::vector<std::function<void()>> ste
 }  // namespace
 
 TEST(StreamInput, FollowsAFileThatGrows) {
-    const Folder folder;
+    const TempFolder folder;
     const std::string path = folder.file("log");
     write_file(path, "a\nb");
     const auto grown = followed(path,
@@ -347,7 +334,7 @@ TEST(StreamInput, FollowsAFileThatGrows) {
 }
 
 TEST(StreamInput, FollowsAFileThatIsReplaced) {
-    const Folder folder;
+    const TempFolder folder;
     const std::string path = folder.file("log");
     write_file(path, "a\nhalf");
     const auto replaced = followed(path, {[&] {
@@ -359,7 +346,7 @@ TEST(StreamInput, FollowsAFileThatIsReplaced) {
 }
 
 TEST(StreamInput, FollowsAFileThatIsCut) {
-    const Folder folder;
+    const TempFolder folder;
     const std::string path = folder.file("log");
     write_file(path, "a long line\n");
     EXPECT_EQ(followed(path, {[&] { write_file(path, "b\n"); }}, 2),
