@@ -129,3 +129,12 @@ $message"
     run -64 --separate-stderr dccl-decode -s nav.proto --duplicates 10 in
     assert_equal "$stderr" 'dccl-decode: option --duplicates needs --records'
 }
+
+@test "dccl-decode: --received says when and from whom, and dccl-encode reads that again" {
+    run_quiet dccl-decode -s nav.proto --records --received <<< "$(reception "$(base64_of $frame)")"
+    assert_output '{"@received":"2024-05-01T12:00:30Z","@from":3,'"${message#?}"
+    run_quiet dccl-encode -s nav.proto <<< "$output"
+    assert_output $frame
+    run -64 --separate-stderr dccl-decode -s nav.proto --received <<< $frame
+    assert_equal "$stderr" 'dccl-decode: option --received needs --records'
+}

@@ -81,7 +81,9 @@ public:
             return decoded.bytes;
         std::string& out = io_.out.buffer();
         if (io_.format == "ndjson") {
+            const std::size_t start = out.size();
             schema::write_json(values_, out, types_.single() ? "" : decoded.type->name);
+            if (receptions_) receptions_->add_received(out, start);
         } else if (io_.format == "text") {
             const std::size_t start = out.size();
             if (!types_.single()) out += "|" + decoded.type->name + "| ";

@@ -56,8 +56,8 @@ struct MessageRecordOptions {
     /// @throws Error(usage)
     void check() const {
         const auto usage = [](const std::string& what) { throw Error(ExitCode::usage, what); };
-        const bool any =
-            !src_field.empty() || !dest_field.empty() || !time_field.empty() || src || dest || ack();
+        const bool any = !src_field.empty() || !dest_field.empty() || !time_field.empty() || src ||
+                         dest || ack();
         if (any && !wanted()) usage("options of records need --records or --send");
         if (src && !src_field.empty()) usage("options --src and --src-field exclude each other");
         if (dest && !dest_field.empty())
@@ -178,10 +178,13 @@ private:
 /// What dccl-decode is told of the records that it reads.
 struct ReceptionRecordOptions {
     bool records = false;
+    bool received = false;
     double duplicates_s = 0;
 
     void add(CLI::App& app) {
         app.add_flag("--records", records, "Read reception records, of mm-serial");
+        app.add_flag("--received", received,
+                     "Say when and from whom, as \"@received\" and \"@from\"");
         app.add_option("--duplicates", duplicates_s,
                        "Drop messages that came before within SECONDS, from the same sender")
             ->option_text("SECONDS");
@@ -191,6 +194,7 @@ struct ReceptionRecordOptions {
     void check() const {
         if (duplicates_s != 0 && !records)
             throw Error(ExitCode::usage, "option --duplicates needs --records");
+        if (received && !records) throw Error(ExitCode::usage, "option --received needs --records");
         if (!(duplicates_s >= 0 && duplicates_s <= 1e7))
             throw Error(ExitCode::usage, "option --duplicates: outside 0 to 10000000 s");
     }
@@ -199,7 +203,8 @@ struct ReceptionRecordOptions {
 /// Takes the frames out of reception records.
 class ReceptionReader {
 public:
-    ReceptionReader(cli::Io& io, const ReceptionRecordOptions& options) : records_(io), io_(io) {
+    ReceptionReader(cli::Io& io, const ReceptionRecordOptions& options)
+        : records_(io), io_(io), received_(options.received) {
         if (options.duplicates_s > 0)
             duplicates_.emplace(static_cast<std::int64_t>(options.duplicates_s * 1e9));
     }
@@ -229,6 +234,15 @@ public:
 
     std::int64_t time_ns() const { return time_ns_; }
 
+    /// With --received: puts when and from whom into the JSON object that begins at `at`.
+    void add_received(std::string& out, std::size_t at) const {
+        if (!received_) return;
+        std::string said = "\"@received\":\"" + format_utc_ns(time_ns_) + "\",\"@from\":";
+        said += std::to_string(src_);
+        if (out[at + 1] != '}') said += ',';
+        out.insert(at + 1, said);
+    }
+
     /// Whether the message came before, and is to be dropped.
     bool is_again(std::string_view message) {
         return duplicates_ && duplicates_->is_again(src_, message, time_ns_);
@@ -237,6 +251,7 @@ public:
 private:
     RecordIo records_;
     cli::Io& io_;
+    bool received_;
     std::optional<record::Duplicates> duplicates_;
     std::uint32_t src_ = 0;
     std::int64_t time_ns_ = 0;

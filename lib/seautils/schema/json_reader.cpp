@@ -34,7 +34,7 @@ public:
             const std::string_view key = member.unescaped_key();
             const std::int32_t index = layout.find(key, hint);
             if (index < 0) {
-                if (depth == 1 && key == "@type") {
+                if (depth == 1 && key.starts_with('@')) {
                     ignore(member.value());
                     continue;
                 }
