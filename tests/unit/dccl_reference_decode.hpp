@@ -171,6 +171,9 @@ private:
             case Type::sfixed64:
                 v.whole = static_cast<std::int64_t>(reader.get(64));
                 return;
+            case Type::boolean:
+                v.whole = reader.get(8) != 0;
+                return;
             default:
                 break;
         }
@@ -188,9 +191,6 @@ private:
                 return;
             case Type::uint64:
                 v.whole = x;
-                return;
-            case Type::boolean:
-                v.whole = x != 0;
                 return;
             case Type::enumeration:
                 if (x > 0x7fffffff) throw Undefined{};
