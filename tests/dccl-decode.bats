@@ -473,6 +473,9 @@ END
     assert_output '{"Stamp":43200,"Node":31,"_dest_id":1,"temperature":[null,null,null,null]}'
     assert_refused 'the header takes 6 bytes where 5 are left' -s "$dive" <<< 202d2a303e
     assert_refused 'identifier 91 is of no message that is loaded' -s "$dive" <<< 202daa303e10
+    assert_refused 'body is 8 bytes long, more than 7 (message DIVE)' -s "$dive" <<< 202d2a303e100000000000000001
+    echo '<message_set><message><name>B</name><id>1</id><size>32</size><layout><bool><name>b</name></bool></layout></message></message_set>' > bool.xml
+    assert_refused 'body has bits where it is filled up with zeros (message B)' -s bool.xml <<< 20009530000006
     while IFS='|' read -r options said; do
         # shellcheck disable=SC2086  # words of a command line
         run -64 --separate-stderr dccl-decode -s "$dive" $options <<< 202d2a303e10
