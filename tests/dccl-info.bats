@@ -99,7 +99,7 @@ lint_of() {
     assert_output ''
 }
 
-@test "dccl-info: ids that collide are named on both sides, and no error here" {
+@test "dccl-info: ids that collide are named on both sides, and an error where -m names both" {
     schema one 'package p; message A { option (dccl.msg) = { id: 9 max_bytes: 32 codec_version: 4 }; required bool b = 1 [(dccl.field).in_head = true]; }
         message B { option (dccl.msg) = { id: 9 max_bytes: 32 codec_version: 3 }; required bool b = 1 [(dccl.field).in_head = true]; }'
     run_quiet dccl-info -s one.proto
@@ -107,6 +107,10 @@ lint_of() {
     assert_line --partial 'p.A has the identifier 9 too'
     run -78 dccl-encode -s one.proto <<< '{}'
     assert_output --partial '9'
+    # either alone is sound; named together they are a receiver's types
+    run_quiet dccl-info -s one.proto -m A
+    run -78 --separate-stderr dccl-info -s one.proto -m A -m B
+    assert_equal "$stderr" 'dccl-info: one.proto:4: id 9 is both message p.A and message p.B'
 }
 
 @test "dccl-info: header leaves that versions 3 and 4 never send are named" {
