@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -174,6 +175,10 @@ std::int64_t Io::now_us() const {
     if (time_us) return *time_us;
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+bool Io::reads_stdin() const {
+    return files.empty() || std::find(files.begin(), files.end(), "-") != files.end();
 }
 
 std::uint64_t Io::refused() const { return impl_->refused; }
