@@ -27,6 +27,8 @@ public:
         types_.set_now(io_.now_us() / 1'000'000);
         bytes_.clear();
         types_.encode(type, values_, bytes_);
+        if (bytes_.empty() && io_.format != "delimited")
+            throw DataError("the message takes no bytes, which only delimited can hold");
         write();
     }
 
