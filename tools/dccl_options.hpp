@@ -55,6 +55,9 @@ struct DcclOptions {
                          ->option_text("FILE");
         app.add_option("--passphrase-fd", passphrase_fd, "The same from an open descriptor")
             ->option_text("N")
+            ->check([](const std::string& n) {
+                return n.starts_with('-') ? quote(n) + " is below 0" : std::string();
+            })
             ->excludes(file);
         app.add_option("--skip-crypto-id", skip_crypto_ids,
                        "Do not encrypt messages of this id; may repeat")
@@ -130,6 +133,10 @@ inline void DcclOptions::check_legacy(const dccl::TypeSet& types, const cli::Io&
 }
 
 inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
+    if (passphrase_fd == STDIN_FILENO && io.reads_stdin()) {
+        throw Error(ExitCode::usage,
+                    "the passphrase and the records cannot both be standard input");
+    }
     dccl::CodecOptions codec;
     codec.lenient = lenient;
     codec.header_only = header_only;
@@ -140,8 +147,9 @@ inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
     dccl::ProgramOptions program;
     program.id_codec = id_codec == "ccl" ? dccl::IdCodec::ccl : dccl::IdCodec::standard;
     for (const std::string& file : arithmetic_models) {
+        const std::string text = file_text(file);
         try {
-            dccl::add_model(file_text(file), program.models);
+            dccl::add_model(text, program.models);
         } catch (const ConfigError& e) {
             throw ConfigError(file + ": " + e.what());
         }
