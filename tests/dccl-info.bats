@@ -36,6 +36,8 @@ lint_of() {
     run_quiet bash -c "dccl-info -s sum.proto -f ndjson |
         jq -c '[.id, .id_bits, .head_max_bits, .body_max_bits, .min_bytes, .largest_bytes, .max_bytes, [.fields[].max_bits]]'"
     assert_output '[170,16,4,9,5,5,32,[4,8,1]]'
+    run_quiet dccl-info -s sum.proto
+    assert_line '  identifier 16 bits, header 4 bits, body 9 bits'
 }
 
 @test "dccl-info: each field has its bounds, step, length, repeats and part" {
@@ -87,6 +89,8 @@ lint_of() {
       required bool b = 1 [(dccl.field).in_head = true]; }'
     run lint_of headonly
     assert_output ''
+    run_quiet dccl-info -s headonly.proto
+    assert_line '  identifier 8 bits, header 1 bit, body 0 bits'
 }
 
 @test "dccl-info: ids that collide are named on both sides, and no error here" {
