@@ -420,6 +420,8 @@ END
     assert_regex "$stderr" '^dccl-encode: nav.proto: arithmetic model: '
     run -78 --separate-stderr dccl-encode -s series.proto --arithmetic-model steps.textpb --arithmetic-model steps.textpb
     assert_equal "$stderr" "dccl-encode: steps.textpb: arithmetic model 'steps' is given twice"
+    run -78 --separate-stderr dccl-encode -s series.proto --arithmetic-model /dev/zero
+    assert_equal "$stderr" 'dccl-encode: /dev/zero: longer than 1 MiB'
     run -66 --separate-stderr dccl-encode -s series.proto --arithmetic-model gone.textpb
     assert_equal "$stderr" 'dccl-encode: gone.textpb: No such file or directory'
 }

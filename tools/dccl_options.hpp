@@ -147,8 +147,9 @@ inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
     dccl::ProgramOptions program;
     program.id_codec = id_codec == "ccl" ? dccl::IdCodec::ccl : dccl::IdCodec::standard;
     for (const std::string& file : arithmetic_models) {
+        const std::string text = file_text(file);
         try {
-            dccl::add_model(file_text(file), program.models);
+            dccl::add_model(text, program.models);
         } catch (const ConfigError& e) {
             throw ConfigError(file + ": " + e.what());
         }
