@@ -199,6 +199,11 @@ lint_of() {
     [[ $stderr == 'dccl-info: broken.proto:1'* ]] || fail "$stderr"
 }
 
+@test "dccl-info: a passphrase is none of its business" {
+    SEAUTILS_PASSPHRASE_FILE=gone run_quiet dccl-info -s "$schemas" -m WinchControl
+    assert_line --index 0 --partial 'WinchControl: id 107'
+}
+
 @test "dccl-info: a schema may come through a pipe" {
     schema piped 'message M { option (dccl.msg) = { id: 1 max_bytes: 32 codec_version: 4 }; required bool b = 1; }'
     run_quiet dccl-info -s <(cat piped.proto)

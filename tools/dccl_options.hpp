@@ -23,6 +23,7 @@ namespace seautils::tools {
 
 struct DcclOptions {
     bool keep_collisions = false;  ///< types that share an identifier do no harm here
+    bool frames = false;           ///< what is encrypted concerns this tool
     bool lenient = false;
     bool header_only = false;
     bool full_time_resolution = false;
@@ -47,6 +48,7 @@ struct DcclOptions {
     }
     /// What decides on frames: encoder and decoder.
     void add_frame_options(CLI::App& app) {
+        frames = true;
         app.add_flag("--lenient", lenient,
                      "Do as the reference library does where that loses data");
         app.add_flag("--header-only", header_only, "Code the header alone");
@@ -141,7 +143,7 @@ inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
     codec.lenient = lenient;
     codec.header_only = header_only;
     codec.full_time_resolution = full_time_resolution;
-    codec.passphrase = passphrase();
+    if (frames) codec.passphrase = passphrase();
     codec.skip_crypto_ids.insert(skip_crypto_ids.begin(), skip_crypto_ids.end());
     codec.now_s = io.now_us() / 1'000'000;
     dccl::ProgramOptions program;

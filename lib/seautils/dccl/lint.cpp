@@ -143,10 +143,9 @@ std::vector<Remark> lint(const Program& program) {
 
 namespace {
 
-/// The code of the value halfway between the bounds.
+/// The code of the value halfway between the bounds, as decode_integer and decode_float take it.
 std::uint64_t middle_code(const NumberCode& n) {
-    const double steps = std::floor((n.max - n.min) / n.resolution / 2);
-    return static_cast<std::uint64_t>(steps) + (n.null_code ? 1 : 0);
+    return static_cast<std::uint64_t>(std::floor((n.max - n.min) / n.resolution / 2));
 }
 
 /// Fills a message's fields with what is typical of them.
