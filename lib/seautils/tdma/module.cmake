@@ -1,0 +1,2 @@
+seautils_module(NAME tdma SOURCES grid.cpp cycle.cpp slot_text.cpp rule.cpp network.cpp survey.cpp
+                DEPENDS core LINK fmt::fmt)
