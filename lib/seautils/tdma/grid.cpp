@@ -14,10 +14,9 @@ namespace seautils::tdma {
 Origin parse_origin(std::string_view text) {
     if (text == "epoch") return {};
     if (text == "midnight") return {Origin::Kind::midnight, 0};
-    const std::int64_t time_us = parse_utc(text);
-    if (time_us > last_ns / 1000)
-        throw DataError("time " + quote(text) + " is after the year 2261");
-    return {Origin::Kind::instant, time_us * 1000};
+    const std::int64_t time_ns = parse_utc_ns(text);
+    if (time_ns > last_ns) throw DataError("time " + quote(text) + " is after July 2261");
+    return {Origin::Kind::instant, time_ns};
 }
 
 Era era_of(const Origin& origin, std::int64_t time_ns) {

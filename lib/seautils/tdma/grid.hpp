@@ -24,7 +24,7 @@ struct Origin {
     std::int64_t instant_ns = 0;
 };
 
-/// @param text  `epoch`, `midnight`, or an instant as parse_utc takes it
+/// @param text  `epoch`, `midnight`, or an instant as parse_utc_ns takes it
 /// @throws DataError  anything else, or later than last_ns
 Origin parse_origin(std::string_view text);
 
