@@ -12,7 +12,7 @@ namespace seautils::tdma {
 
 namespace {
 
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 void check_slot(const Slot& slot, std::size_t index, std::int64_t guard_ns) {
     if (slot.length_ns < min_slot_ns || slot.length_ns > max_slot_ns) {

@@ -10,7 +10,7 @@ namespace seautils::tdma {
 
 namespace {
 
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 void check_span(const char* what, std::int64_t ns, std::int64_t least, std::int64_t most) {
     if (ns >= least && ns <= most) return;
