@@ -43,6 +43,16 @@ void Summary::add(const Outcome& outcome) {
     total_settled_slots += outcome.settled_slots;
 }
 
+void Summary::add(const Summary& other) {
+    runs += other.runs;
+    failed += other.failed;
+    proven += other.proven;
+    quiet += other.quiet;
+    longest_slots = std::max(longest_slots, other.longest_slots);
+    total_slots += other.total_slots;
+    total_settled_slots += other.total_settled_slots;
+}
+
 std::optional<double> Summary::mean_slots() const { return mean(total_slots, runs - failed); }
 
 std::optional<double> Summary::mean_settled_slots() const {
@@ -52,7 +62,7 @@ std::optional<double> Summary::mean_settled_slots() const {
 void survey(const std::vector<int>& addresses, const SurveyOptions& options, Summary& summary) {
     NetworkOptions own = options.network;
     for (std::uint64_t k = 0; k < options.runs; ++k) {
-        own.seed = splitmix64(options.network.seed) ^ summary.runs;
+        own.seed = splitmix64(options.network.seed) ^ (options.first_run + k);
         Network network(addresses, options.start + k, own);
         summary.add(run(network, options.limit));
     }
@@ -95,6 +105,7 @@ Summary survey_drawn(std::uint64_t count, std::size_t size, int first, int last,
     one.runs = 1;
     for (std::uint64_t k = 0; k < count; ++k) {
         one.start = 2 * random.below(std::uint64_t{5040} * options.network.excitation.coolness);
+        one.first_run = k;
         survey(draw(size, pool, random), one, summary);
     }
     return summary;

@@ -21,6 +21,7 @@ struct Summary {
     std::uint64_t total_settled_slots = 0;  ///< until all took turns again, likewise
 
     void add(const Outcome& outcome);
+    void add(const Summary& other);
     /// Until everybody knew everybody, over the runs that did not fail; none: all failed.
     std::optional<double> mean_slots() const;
     std::optional<double> mean_settled_slots() const;
@@ -31,6 +32,7 @@ struct SurveyOptions {
     std::uint64_t start = 0;        ///< slot at which the vehicles start
     std::uint64_t runs = 1;         ///< of each set, from slots start, start + 1, …
     std::uint64_t limit = 100'000;  ///< slots of a run at most
+    std::uint64_t first_run = 0;  ///< number of the first run, which decides on its random numbers
 };
 
 /// Runs one set of vehicles.
@@ -45,7 +47,7 @@ void for_each_subset(std::size_t size, int first, int last,
 std::uint64_t count_subsets(std::size_t size, int first, int last);
 
 /// Runs `count` sets of `size` of the addresses `first` to `last`, each drawn at random, as is the
-/// even slot at which it starts; start and runs of the options have no say.
+/// even slot at which it starts; start, runs and first_run of the options have no say.
 /// @throws DataError  `size` is outside 1 to the number of addresses
 /// Check value: sets of 3 of 1 to 127, C = 3, p_collide = 0.75: 24.606 % are quiet (figure 2.11).
 Summary survey_drawn(std::uint64_t count, std::size_t size, int first, int last,
