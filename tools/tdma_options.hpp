@@ -28,8 +28,9 @@ struct TdmaOptions {
     std::string origin = "epoch", guard = "0", lead = "0";
     std::string from, to;
     // polled
+    static constexpr double sound_speed_mps = 1500;
     int master = 0;
-    double max_range_m = 0, sound_speed_mps = 1500, cycle_init_s = 1;
+    double max_range_m = 0, cycle_init_s = 1;
     // auto
     std::string rule = "hash", length = "15", silence = "1800", feedback, state;
     std::uint32_t coolness = 2;
@@ -150,12 +151,9 @@ inline void TdmaOptions::add_schedule(CLI::App& app) {
     app.add_option("--cycle-init", cycle_init_s, "polled: duration of a poll, 1 s")
         ->check(within(0, 60, " s"))
         ->option_text("SECONDS");
-    app.add_option("--max-range", max_range_m, "polled: how far it goes, 0 m")
+    app.add_option("--max-range", max_range_m, "polled: the farthest vehicle, 0 m")
         ->check(within(0, 100'000, " m"))
         ->option_text("METRES");
-    app.add_option("--sound-speed", sound_speed_mps, "polled: how fast, 1500 m/s")
-        ->check(within(1300, 1700, " m/s"))
-        ->option_text("MPS");
 }
 
 inline void TdmaOptions::add_auto(CLI::App& app) {
@@ -183,7 +181,7 @@ inline void TdmaOptions::add_simulation(CLI::App& app) {
     auto* simulated =
         app.add_option("--simulate", simulate, "Show how these vehicles find each other")
             ->check(takes(tdma::parse_addresses))
-            ->option_text("ID,ID…");
+            ->option_text("IDS");
     app.add_option("--subsets", subsets, "The same for all sets of N vehicles of --pool")
         ->check(count_within(1, tdma::max_address))
         ->option_text("N")

@@ -183,6 +183,14 @@ TEST(TdmaDiscovery, WhoIsSilentIsForgottenByAllAtTheSameInstant) {
     EXPECT_EQ(discovery.world(), World(1));
 }
 
+TEST(TdmaDiscovery, WhoWouldHaveBeenForgottenByNowDoesNotCount) {
+    Discovery discovery(options_of(1), 10'000 * s);
+    EXPECT_FALSE(discovery.hear(3, 40 * s));
+    EXPECT_EQ(discovery.world(), World(1));
+    EXPECT_EQ(discovery.resume_ns(), 10'020 * s);
+    EXPECT_TRUE(discovery.hear(3, 9'000 * s));
+}
+
 TEST(TdmaDiscovery, OneThatStartsWaitsForACycle) {
     EXPECT_EQ(Discovery(options_of(1), 0).next(0).start_ns, 0);
     EXPECT_EQ(Discovery(options_of(1), 1).next(1).start_ns, 30 * s);

@@ -36,10 +36,14 @@ const DiscoveryOptions& checked(const DiscoveryOptions& options) {
 Discovery::Discovery(const DiscoveryOptions& options, std::int64_t now_ns)
     : options_(checked(options)),
       world_(options.address),
-      resume_ns_(boundary_from(options.origin, cycle_ns(), now_ns)) {}
+      resume_ns_(boundary_from(options.origin, cycle_ns(), now_ns)),
+      now_ns_(now_ns) {}
 
 Discovery::Discovery(const DiscoveryOptions& options, const Memory& memory, std::int64_t now_ns)
-    : options_(checked(options)), world_(options.address), resume_ns_(memory.resume_ns) {
+    : options_(checked(options)),
+      world_(options.address),
+      resume_ns_(memory.resume_ns),
+      now_ns_(now_ns) {
     for (const Heard& heard : memory.others) {
         if (heard.address < 1 || heard.address > max_modem_id || !world_.add(heard.address))
             continue;
@@ -90,6 +94,7 @@ bool Discovery::hear(int address, std::int64_t time_ns) {
     if (address < 1 || address > max_modem_id || address == options_.address) return false;
     advance(time_ns);
     const std::int64_t end = slot_end(time_ns);
+    if (expiry({address, end}) <= now_ns_) return false;
     if (world_.add(address)) {
         const auto at =
             std::lower_bound(others_.begin(), others_.end(), address,
@@ -105,6 +110,7 @@ bool Discovery::hear(int address, std::int64_t time_ns) {
 
 bool Discovery::advance(std::int64_t time_ns) {
     bool any = false;
+    now_ns_ = std::max(now_ns_, time_ns);
     for (auto first = first_expiry(); first && *first <= time_ns; first = first_expiry()) {
         forget(*first);
         any = true;
@@ -114,6 +120,7 @@ bool Discovery::advance(std::int64_t time_ns) {
 
 void Discovery::clock_stepped(std::int64_t by_ns, std::int64_t now_ns) {
     const bool is_waiting = resume_ns_ > now_ns - by_ns;
+    now_ns_ = now_ns;
     for (Heard& heard : others_) {
         const std::int64_t moved = std::clamp<std::int64_t>(heard.until_ns + by_ns, 0, last_ns);
         heard.until_ns = boundary_from(options_.origin, options_.slot_ns, moved);

@@ -69,7 +69,8 @@ public:
 
     /// Somebody was heard.
     /// @param address  whoever; 0 (nobody), this vehicle and those above max_modem_id do not count
-    /// @param time_ns  when; earlier than what was heard since is fine
+    /// @param time_ns  when; earlier than what was heard since is fine, but for one who would have
+    ///                 been forgotten by now: that does not count
     /// @return         whether it is new
     bool hear(int address, std::int64_t time_ns);
 
@@ -101,6 +102,7 @@ private:
     World world_;
     std::vector<Heard> others_;
     std::int64_t resume_ns_;
+    std::int64_t now_ns_;  ///< the latest instant that was told
 };
 
 }  // namespace seautils::tdma
