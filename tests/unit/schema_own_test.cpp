@@ -3,6 +3,7 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/time.hpp"
 #include "seautils/dccl/codec.hpp"
+#include "seautils/dccl/options.hpp"
 #include "seautils/schema/json.hpp"
 #include "seautils/schema/pool.hpp"
 
@@ -29,7 +30,8 @@ struct Own {
         codec = dccl::Codec(options);
         for (const auto* descriptor : pool.messages()) {
             const schema::Layout& layout = pool.layout(*descriptor);
-            if (descriptor->containing_type() != nullptr) continue;
+            // Records (record.proto) are not for the link: they carry no options.
+            if (!dccl::raw_message_options(*descriptor)) continue;
             programs[descriptor->name()] = dccl::Program::compile(layout);
             codec.load(programs[descriptor->name()]);
         }

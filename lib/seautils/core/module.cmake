@@ -1,1 +1,1 @@
-seautils_module(NAME core SOURCES time.cpp text.cpp LINK fmt::fmt)
+seautils_module(NAME core SOURCES text.cpp time.cpp warp.cpp LINK fmt::fmt)

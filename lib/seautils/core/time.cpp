@@ -3,16 +3,16 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/text.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
+#include <cstdlib>
 
 namespace seautils {
 
 namespace {
 
-constexpr std::int64_t second_us = 1'000'000;
-constexpr std::int64_t last_us = 253'402'300'800 * second_us;  ///< the year 10000
+constexpr std::int64_t second_ns = 1'000'000'000;
+constexpr std::int64_t last_s = 253'402'300'800;   ///< the year 10000
+constexpr std::int64_t last_ns_s = 9'223'372'036;  ///< the last second of 64-bit nanoseconds
 
 /// Reads a text from left to right; `good` turns false at the first thing that does not fit.
 struct Scanner {
@@ -38,17 +38,18 @@ struct Scanner {
         return x;
     }
 
-    /// `.5` as microseconds; 0 where no point follows.
-    std::int64_t fraction_us() {
+    /// `.5` as nanoseconds; 0 where no point follows.
+    std::int32_t fraction_ns(int most_digits) {
         if (!accept('.')) return 0;
         const std::size_t before = rest.size();
-        std::int64_t x = number(1, 6);
-        for (std::size_t k = before - rest.size(); k < 6; ++k) x *= 10;
-        return x;
+        std::int64_t x = number(1, most_digits);
+        for (std::size_t k = before - rest.size(); k < 9; ++k) x *= 10;
+        return static_cast<std::int32_t>(x);
     }
 };
 
-std::int64_t civil_us(Scanner& s) {
+/// Seconds since 1970 of `2024-05-01T12:00:25`.
+std::int64_t civil_s(Scanner& s) {
     namespace chr = std::chrono;
     const auto year = static_cast<int>(s.number(4, 4));
     s.expect('-');
@@ -61,15 +62,14 @@ std::int64_t civil_us(Scanner& s) {
     const std::int64_t minute = s.number(2, 2);
     s.expect(':');
     const std::int64_t second = s.number(2, 2);
-    const std::int64_t fraction = s.fraction_us();
     const chr::year_month_day date{chr::year{year}, chr::month{month}, chr::day{day}};
     s.good = s.good && date.ok() && year >= 1970 && hour < 24 && minute < 60 && second < 60;
     if (!s.good) return 0;
     const std::int64_t days = chr::sys_days{date}.time_since_epoch().count();
-    return (days * 86400 + hour * 3600 + minute * 60 + second) * second_us + fraction;
+    return days * 86400 + hour * 3600 + minute * 60 + second;
 }
 
-std::int64_t offset_us(Scanner& s) {
+std::int64_t offset_s(Scanner& s) {
     if (s.accept('Z') || s.accept('z')) return 0;
     const bool west = s.accept('-');
     if (!west) s.expect('+');
@@ -77,43 +77,81 @@ std::int64_t offset_us(Scanner& s) {
     s.expect(':');
     const std::int64_t minute = s.number(2, 2);
     s.good = s.good && hour < 24 && minute < 60;
-    return (west ? 60 : -60) * (hour * 60 + minute) * second_us;
+    return (west ? 60 : -60) * (hour * 60 + minute);
+}
+
+[[noreturn]] void refuse(std::string_view text) {
+    throw DataError("time " + quote(text) + " is not of the form 2024-05-01T12:00:25Z");
+}
+
+UtcInstant parse(std::string_view text, int most_digits) {
+    Scanner s{text};
+    UtcInstant time;
+    if (s.accept('@')) {
+        time.seconds = s.number(1, 12);
+        time.nanoseconds = s.fraction_ns(most_digits);
+    } else {
+        time.seconds = civil_s(s);
+        time.nanoseconds = s.fraction_ns(most_digits);
+        time.seconds += offset_s(s);
+    }
+    if (!s.good || !s.rest.empty() || time.seconds < 0 || time.seconds >= last_s) refuse(text);
+    return time;
+}
+
+/// Writes `digits` digits, the last at end[-1].
+void put_digits(char* end, int digits, std::uint32_t x) {
+    for (; digits > 0; --digits, x /= 10) *--end = static_cast<char>('0' + x % 10);
 }
 
 }  // namespace
 
 std::int64_t parse_utc(std::string_view text) {
-    Scanner s{text};
-    std::int64_t time_us = 0;
-    if (s.accept('@')) {
-        time_us = s.number(1, 12) * second_us;
-        time_us += s.fraction_us();
-    } else {
-        time_us = civil_us(s);
-        time_us += offset_us(s);
-    }
-    if (!s.good || !s.rest.empty() || time_us < 0 || time_us >= last_us) {
-        throw DataError("time " + quote(text) + " is not of the form 2024-05-01T12:00:25Z");
-    }
-    return time_us;
+    const UtcInstant time = parse(text, 6);
+    return time.seconds * 1'000'000 + time.nanoseconds / 1000;
+}
+
+UtcInstant parse_instant(std::string_view text) { return parse(text, 9); }
+
+std::int64_t parse_utc_ns(std::string_view text) {
+    const UtcInstant time = parse(text, 9);
+    if (time.seconds >= last_ns_s)
+        throw DataError("time " + quote(text) + " is later than 2262-04-11T23:47:16Z");
+    return time.seconds * second_ns + time.nanoseconds;
+}
+
+void append_instant(std::string& out, UtcInstant instant) {
+    namespace chr = std::chrono;
+    const auto [days, second] = std::div(instant.seconds, std::int64_t{86400});
+    const chr::year_month_day date{chr::sys_days{chr::days{days}}};
+    const auto clock = static_cast<std::uint32_t>(second);
+    char text[] = "0000-00-00T00:00:00.000000000";
+    put_digits(text + 4, 4, static_cast<std::uint32_t>(static_cast<int>(date.year())));
+    put_digits(text + 7, 2, static_cast<unsigned>(date.month()));
+    put_digits(text + 10, 2, static_cast<unsigned>(date.day()));
+    put_digits(text + 13, 2, clock / 3600);
+    put_digits(text + 16, 2, clock / 60 % 60);
+    put_digits(text + 19, 2, clock % 60);
+    const auto fraction = static_cast<std::uint32_t>(instant.nanoseconds);
+    put_digits(text + 29, 9, fraction);
+    const bool whole = fraction == 0, thousandths = fraction % 1'000'000 == 0;
+    const std::size_t length = whole ? 19 : thousandths ? 23 : fraction % 1000 == 0 ? 26 : 29;
+    out.append(text, length);
+    out += 'Z';
 }
 
 std::string format_utc(std::int64_t time_us) {
-    namespace chr = std::chrono;
-    const chr::sys_time<chr::microseconds> time{chr::microseconds{time_us}};
-    const auto day = chr::floor<chr::days>(time);
-    const chr::year_month_day date{day};
-    const chr::hh_mm_ss<chr::microseconds> clock{time - day};
-    std::string text =
-        fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
-                    static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                    clock.hours().count(), clock.minutes().count(), clock.seconds().count());
-    const auto fraction = clock.subseconds().count();
-    if (fraction % 1000 != 0)
-        text += fmt::format(".{:06}", fraction);
-    else if (fraction != 0)
-        text += fmt::format(".{:03}", fraction / 1000);
-    return text + "Z";
+    const auto [seconds, rest] = std::div(time_us, std::int64_t{1'000'000});
+    std::string text;
+    append_instant(text, {seconds, static_cast<std::int32_t>(rest) * 1000});
+    return text;
+}
+
+std::string format_utc_ns(std::int64_t time_ns) {
+    const auto [seconds, rest] = std::div(time_ns, second_ns);
+    std::string text;
+    append_instant(text, {seconds, static_cast<std::int32_t>(rest)});
+    return text;
 }
 
 }  // namespace seautils

@@ -76,6 +76,8 @@ class Reader {
 public:
     explicit Reader(Values& values) : values_(values) {}
 
+    bool all_known() const { return all_known_; }
+
     /// @param group  the number of the group that the message is, or 0
     void message(Bytes& in, const Layout& layout, std::uint32_t block, int depth,
                  std::uint32_t group) {
@@ -94,6 +96,7 @@ public:
             const std::int32_t index = layout.find_number(static_cast<std::int32_t>(number), hint);
             if (index < 0 ||
                 !known(in, layout, static_cast<std::uint32_t>(index), block, type, depth)) {
+                all_known_ = false;
                 skip(in, type, number, depth);
                 continue;
             }
@@ -180,9 +183,12 @@ private:
     }
 
     /// A number that a closed enumeration does not declare is an unknown field: what was there stays.
-    static void enumerator(Bytes& in, const Field& f, Slot& s) {
+    void enumerator(Bytes& in, const Field& f, Slot& s) {
         const auto number = static_cast<std::int32_t>(in.get_varint());
-        if (!f.enumeration->open && f.enumeration->find(number) == nullptr) return;
+        if (!f.enumeration->open && f.enumeration->find(number) == nullptr) {
+            all_known_ = false;
+            return;
+        }
         s.i = number;
         s.present = true;
     }
@@ -250,14 +256,17 @@ private:
     }
 
     Values& values_;
+    bool all_known_ = true;
 };
 
 }  // namespace
 
-void read_binary(std::string_view bytes, const Layout& layout, Values& values) {
+bool read_binary(std::string_view bytes, const Layout& layout, Values& values) {
     values.reset(layout);
     Bytes in(bytes, 0, bytes.size());
-    Reader(values).message(in, layout, 0, 1, 0);
+    Reader reader(values);
+    reader.message(in, layout, 0, 1, 0);
+    return reader.all_known();
 }
 
 }  // namespace seautils::schema

@@ -9,6 +9,9 @@
 
 namespace seautils::schema {
 
+/// What to do with fields and enumerators that the layout does not declare.
+enum class Unknown : std::uint8_t { refuse, skip };
+
 /// Reads protobuf's JSON mapping into Values, without a protobuf message in between.
 ///
 /// Accepts what protobuf's parser accepts: either spelling of a field name, 64-bit integers as
@@ -17,8 +20,9 @@ namespace seautils::schema {
 /// Refuses, each with the field's path and the value quoted: an unknown field (proposes the nearest
 /// name), a duplicate field, two members of a oneof, a fraction or out-of-type number for an
 /// integer, an undeclared enumerator, a null element (unless Field::nullable_elements), invalid
-/// UTF-8, more than 32 levels, anything after the object. Not covered: map fields, and the special
-/// forms of google.protobuf's well-known types, which are read and written as plain messages.
+/// UTF-8, more than 32 levels, anything after the object. google.protobuf.Timestamp is a time,
+/// `"2024-05-01T12:00:25.5Z"`, from 1970 on. Not covered: map fields, and the special forms of
+/// google.protobuf's other well-known types, which are read and written as plain messages.
 ///
 /// Stricter than protobuf's parser, which guesses: JSON is that of RFC 8259 (no bare key, no single
 /// quotes, no last comma, no `5.`); a repeated field is an array; in quotes stands no "+1", no
@@ -36,8 +40,10 @@ public:
     std::string type_of(std::string_view json);
 
     /// @param json  one object; the key "@type" is skipped at the top level
+    /// @return whether all was known
     /// @throws DataError  as above; `values` is then unspecified
-    void read(std::string_view json, const Layout& layout, Values& values);
+    bool read(std::string_view json, const Layout& layout, Values& values,
+              Unknown unknown = Unknown::refuse);
 
 private:
     struct Impl;

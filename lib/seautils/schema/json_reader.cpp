@@ -1,5 +1,6 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/text.hpp"
+#include "seautils/core/time.hpp"
 #include "seautils/schema/json.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 namespace seautils::schema {
 
@@ -21,7 +23,9 @@ constexpr int max_depth = 32;
 /// Reads one object into slots; knows where it is, for messages.
 class Reader {
 public:
-    explicit Reader(Values& values) : values_(values) {}
+    Reader(Values& values, Unknown unknown) : values_(values), unknown_(unknown) {}
+
+    bool all_known() const { return all_known_; }
 
     void object(sj::object from, const Layout& layout, std::uint32_t block, int depth) {
         if (depth > max_depth) refuse("is nested deeper than 32 levels");
@@ -34,7 +38,9 @@ public:
                     ignore(member.value());
                     continue;
                 }
-                unknown(key, layout);
+                if (unknown_ == Unknown::refuse) unknown(key, layout);
+                all_known_ = false;
+                continue;
             }
             hint = static_cast<std::uint32_t>(index) + 1;
             const Field& f = layout.fields[static_cast<std::size_t>(index)];
@@ -113,7 +119,9 @@ private:
                 continue;
             }
             scalar(one, f, at, depth);
+            if (!values_[at].present) --values_[slot].aux;  // an enumerator that was skipped
         }
+        if (values_[slot].aux == 0) values_[slot].present = false;
     }
 
     void scalar(sj::value value, const Field& f, std::uint32_t slot, int depth) {
@@ -147,9 +155,11 @@ private:
             case Kind::bytes:
                 return bytes(value, slot);
             case Kind::enumeration:
-                set_i(slot, enumerator(value, f));
+                if (const auto number = enumerator(value, f)) set_i(slot, *number);
                 return;
             case Kind::message: {
+                if (f.message->timestamp && value.type() == sj::json_type::string)
+                    return timestamp(value, f, slot);
                 if (value.type() != sj::json_type::object) refuse("is not an object");
                 const std::uint32_t block = values_.add_block(slot, *f.message);
                 return object(value.get_object(), *f.message, block, depth + 1);
@@ -321,7 +331,20 @@ private:
         }
     }
 
-    std::int64_t enumerator(sj::value& value, const Field& f) {
+    void timestamp(sj::value& value, const Field& f, std::uint32_t slot) {
+        UtcInstant instant;
+        try {
+            instant = parse_instant(value.get_string());
+        } catch (const DataError& e) {
+            refuse(std::string("is no time: ") + e.what());
+        }
+        const std::uint32_t block = values_.add_block(slot, *f.message);
+        if (instant.seconds != 0) set_i(block, instant.seconds);
+        if (instant.nanoseconds != 0) set_i(block + 1, instant.nanoseconds);
+    }
+
+    /// Nothing: it is not declared, and that is no fault here.
+    std::optional<std::int64_t> enumerator(sj::value& value, const Field& f) {
         if (value.type() == sj::json_type::number)
             return number_of(integer(value, std::numeric_limits<std::int32_t>::min(),
                                      std::numeric_limits<std::int32_t>::max()),
@@ -331,6 +354,7 @@ private:
         std::int32_t number = 0;
         const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error == std::errc() && at == text.data() + text.size()) return number_of(number, f);
+        if (skip_unknown()) return std::nullopt;
         std::vector<std::string> names;
         for (const EnumLayout::Value& v : f.enumeration->values) names.push_back(v.name);
         const std::string near = nearest(text, names);
@@ -338,15 +362,24 @@ private:
                            near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
     }
 
-    std::int64_t number_of(std::int64_t number, const Field& f) {
+    bool skip_unknown() {
+        if (unknown_ == Unknown::refuse) return false;
+        all_known_ = false;
+        return true;
+    }
+
+    std::optional<std::int64_t> number_of(std::int64_t number, const Field& f) {
         if (!f.enumeration->open &&
             f.enumeration->find(static_cast<std::int32_t>(number)) == nullptr) {
+            if (skip_unknown()) return std::nullopt;
             refuse(fmt::format("{} is not in enum {}", number, f.enumeration->full_name));
         }
         return number;
     }
 
     Values& values_;
+    Unknown unknown_;
+    bool all_known_ = true;
     Step steps_[max_depth + 1] = {};
     int depth_ = 0;
 };
@@ -417,9 +450,10 @@ std::string JsonReader::type_of(std::string_view json) {
     }
 }
 
-void JsonReader::read(std::string_view json, const Layout& layout, Values& values) {
+bool JsonReader::read(std::string_view json, const Layout& layout, Values& values,
+                      Unknown unknown) {
     values.reset(layout);
-    Reader reader(values);
+    Reader reader(values, unknown);
     try {
         sj::document document = impl_->open(json);
         if (document.type() != sj::json_type::object)
@@ -429,6 +463,7 @@ void JsonReader::read(std::string_view json, const Layout& layout, Values& value
         if (document.current_location().get(rest) == simdjson::SUCCESS) {
             throw DataError("something follows the JSON object");
         }
+        return reader.all_known();
     } catch (const simdjson::simdjson_error& error) {
         impl_->refuse(error, reader.path());
     }

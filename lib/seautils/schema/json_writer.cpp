@@ -1,4 +1,5 @@
 #include "seautils/core/text.hpp"
+#include "seautils/core/time.hpp"
 #include "seautils/schema/json.hpp"
 #include "seautils/schema/number_text.hpp"
 
@@ -7,6 +8,8 @@
 namespace seautils::schema {
 
 namespace {
+
+constexpr std::int64_t last_second = 253'402'300'799;  ///< of the year 9999
 
 constexpr char hex_digits[] = "0123456789abcdef";
 
@@ -135,9 +138,25 @@ private:
             case Kind::enumeration:
                 return enumerator(f, s);
             case Kind::message:
+                if (f.message->timestamp && timestamp(static_cast<std::uint32_t>(s.u))) return;
                 out_ += '{';
                 return fields(*f.message, static_cast<std::uint32_t>(s.u), true);
         }
+    }
+
+    /// False: no time that JSON can write; it is written as a plain message then.
+    bool timestamp(std::uint32_t block) {
+        const Slot& seconds = values_[block];
+        const Slot& nanos = values_[block + 1];
+        const UtcInstant instant{seconds.present ? seconds.i : 0,
+                                 nanos.present ? static_cast<std::int32_t>(nanos.i) : 0};
+        if (instant.seconds < 0 || instant.seconds > last_second || instant.nanoseconds < 0 ||
+            instant.nanoseconds > 999'999'999)
+            return false;
+        out_ += '"';
+        append_instant(out_, instant);
+        out_ += '"';
+        return true;
     }
 
     void enumerator(const Field& f, const Slot& s) {

@@ -91,6 +91,18 @@ void fill_indices(Layout& layout) {
     layout.by_number = sorted_indices(layout.fields.size(), [&](std::uint32_t a, std::uint32_t b) {
         return layout.fields[a].number < layout.fields[b].number;
     });
+    layout.timestamp = layout.full_name == "google.protobuf.Timestamp" &&
+                       layout.fields.size() == 2 && layout.fields[0].kind == Kind::int64 &&
+                       layout.fields[1].kind == Kind::int32;
+}
+
+void fill_indices(EnumLayout& e) {
+    e.by_name = sorted_indices(e.values.size(), [&](std::uint32_t a, std::uint32_t b) {
+        return e.values[a].name < e.values[b].name;
+    });
+    e.by_number = sorted_indices(e.values.size(), [&](std::uint32_t a, std::uint32_t b) {
+        return e.values[a].number < e.values[b].number;
+    });
 }
 
 }  // namespace
@@ -146,12 +158,7 @@ const EnumLayout& LayoutSet::Impl::enumeration(const google::protobuf::EnumDescr
     for (int k = 0; k < descriptor.value_count(); ++k) {
         e.values.push_back({descriptor.value(k)->name(), descriptor.value(k)->number()});
     }
-    e.by_name = sorted_indices(e.values.size(), [&](std::uint32_t a, std::uint32_t b) {
-        return e.values[a].name < e.values[b].name;
-    });
-    e.by_number = sorted_indices(e.values.size(), [&](std::uint32_t a, std::uint32_t b) {
-        return e.values[a].number < e.values[b].number;
-    });
+    fill_indices(e);
     return e;
 }
 
@@ -218,6 +225,12 @@ const Layout& LayoutSet::add(Layout layout) {
     impl_->fields += layout.fields.size();
     if (impl_->fields > max_fields) throw ConfigError("the schema has more than 100000 fields");
     Layout& kept = impl_->layouts.emplace_back(std::move(layout));
+    fill_indices(kept);
+    return kept;
+}
+
+const EnumLayout& LayoutSet::add(EnumLayout enumeration) {
+    EnumLayout& kept = impl_->enums.emplace_back(std::move(enumeration));
     fill_indices(kept);
     return kept;
 }

@@ -85,6 +85,8 @@ struct Layout {
     std::string full_name;
     std::vector<Field> fields;
     std::vector<Oneof> oneofs;  ///< real ones in order, then synthetic ones
+    /// google.protobuf.Timestamp (seconds, nanos), which JSON writes as a time.
+    bool timestamp = false;
     const google::protobuf::Descriptor* descriptor = nullptr;  ///< null in a legacy layout
 
     /// Index of the field with that name or json_name, or -1. `hint` is tried first: a reader
@@ -117,8 +119,9 @@ public:
     /// @throws ConfigError  more than 100,000 fields in all
     const Layout& of(const google::protobuf::Descriptor& descriptor);
 
-    /// Takes over a layout made by hand (the legacy XML): fills its indices.
+    /// Takes over a layout made by hand (the legacy XML, records): fills its indices.
     const Layout& add(Layout layout);
+    const EnumLayout& add(EnumLayout enumeration);
 
 private:
     struct Impl;

@@ -29,12 +29,13 @@ private:
     std::string wire_;  ///< kept, so that nothing is allocated from message to message
 };
 
-/// Reads protobuf's binary form into `values` without a message in between. Unknown fields are
-/// skipped; a sub-message that comes twice is merged, a scalar's last value counts, packed and
+/// Reads protobuf's binary form into `values` without a message in between. Unknown fields, and
+/// enumerators that a closed enumeration does not declare, are skipped; a sub-message that comes twice is merged, a scalar's last value counts, packed and
 /// unpacked are both read.
+/// @return whether nothing was skipped
 /// @throws DataError  malformed or truncated (names the byte offset), more than 32 levels, invalid
 ///                    UTF-8 in a string
-void read_binary(std::string_view bytes, const Layout& layout, Values& values);
+bool read_binary(std::string_view bytes, const Layout& layout, Values& values);
 
 /// Appends protobuf's binary form, fields in order of number (as protobuf's own serializer does).
 void write_binary(const Values& values, std::string& out);

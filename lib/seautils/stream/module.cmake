@@ -1,1 +1,1 @@
-seautils_module(NAME stream SOURCES input.cpp output.cpp hex.cpp DEPENDS core)
+seautils_module(NAME stream SOURCES fifo.cpp hex.cpp input.cpp output.cpp packet_socket.cpp DEPENDS core)

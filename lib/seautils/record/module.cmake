@@ -1,0 +1,1 @@
+seautils_module(NAME record SOURCES codec.cpp DEPENDS core stream schema)
