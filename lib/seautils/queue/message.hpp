@@ -55,6 +55,7 @@ struct Drop {
     std::string why;  ///< one line, with the value and its bound
     std::int64_t age_ns = 0;
     std::uint32_t sends = 0;
+    std::uint64_t sequence = 0;  ///< of an accepted one; 0: it never was
 };
 
 }  // namespace seautils::queue

@@ -122,8 +122,8 @@ void Scheduler::Impl::drop(Entry& entry, DropReason reason, std::string why, Now
     Queue& queue = queue_of(entry);
     ++(reason == DropReason::expired ? queue.stats.expired : queue.stats.overflowed);
     Message message{queue.key, entry.src, entry.ack, entry.created_us, std::move(entry.data)};
-    changes.drops.push_back(
-        {std::move(message), reason, std::move(why), now.steady_ns - entry.born_ns, entry.sends});
+    changes.drops.push_back({std::move(message), reason, std::move(why),
+                             now.steady_ns - entry.born_ns, entry.sends, entry.sequence});
     remove(entry);
 }
 
@@ -230,10 +230,14 @@ std::optional<Drop> Scheduler::check(const Message& message, Now now) {
         why = fmt::format("{} bytes where the largest frame holds {}", message.data.size(),
                           s.options.max_frame_bytes);
     }
-    if (names_queue(message.queue)) ++s.queue_of(message.queue).stats.refused;
+    return refuse(message, reason, std::move(why), now);
+}
+
+Drop Scheduler::refuse(const Message& message, DropReason reason, std::string why, Now now) {
+    if (names_queue(message.queue)) ++impl_->queue_of(message.queue).stats.refused;
     Accepted accepted = accept(message, 0, now);
-    return Drop{std::move(accepted.message), reason, std::move(why),
-                now.steady_ns - accepted.born_ns, 0};
+    return {std::move(accepted.message),      reason, std::move(why),
+            now.steady_ns - accepted.born_ns, 0,      0};
 }
 
 void Scheduler::push(Accepted accepted, Now now) {
@@ -317,6 +321,8 @@ Changes Scheduler::take_changes() { return std::exchange(impl_->changes, {}); }
 void Scheduler::set_last(QueueKey queue, std::int64_t last_ns) {
     impl_->queue_of(queue).last = {last_ns, 0, true};
 }
+
+std::uint32_t Scheduler::own_id() const { return impl_->options.own_id; }
 
 std::uint32_t Scheduler::next_transmission() const { return impl_->next_transmission; }
 

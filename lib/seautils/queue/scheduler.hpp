@@ -103,6 +103,9 @@ public:
     /// Why a message can never be queued (too_large, refused), and counts it; nothing: it can.
     std::optional<Drop> check(const Message& message, Now now);
 
+    /// A message that is not taken for a reason of the caller's; counts it.
+    Drop refuse(const Message& message, DropReason reason, std::string why, Now now);
+
     /// Queues a message that check() lets through. It, or another of its queue, may be dropped by
     /// this: see take_changes(). Takes time in proportion to the logarithm of the queue's length.
     /// @param accepted  its sequence is greater than those of earlier pushes
@@ -131,6 +134,7 @@ public:
     /// When queues were served last, for the next start.
     void set_last(QueueKey queue, std::int64_t last_ns);
 
+    std::uint32_t own_id() const;
     std::uint32_t next_transmission() const;       ///< the number that the next packet will have
     std::vector<QueueStats> stats(Now now) const;  ///< in the order of id and destination
 

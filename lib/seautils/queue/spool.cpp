@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace seautils::queue {
 
@@ -76,7 +77,7 @@ struct Spool::Impl {
     SpoolContents contents;
     std::uint32_t reserved = 0;
     std::vector<std::uint64_t> gone;
-    std::vector<std::pair<Carried, Now>> sent;
+    std::map<std::uint64_t, std::pair<Carried, Now>> sent;  ///< by sequence
 };
 
 Spool::Impl::Impl(const std::string& path, Now now, const std::string& boot)
@@ -173,7 +174,8 @@ void Spool::Impl::insert(const Accepted& accepted) {
 }
 
 void Spool::Impl::write_notes() {
-    for (const auto& [carried, now] : sent) {
+    for (const auto& [sequence, note] : sent) {
+        const auto& [carried, now] = note;
         count_send.bind(1, static_cast<std::int64_t>(carried.sequence))
             .bind(2, carried.sends)
             .run();
@@ -206,7 +208,9 @@ void Spool::store(std::span<const Accepted> messages) {
 
 void Spool::note_gone(std::uint64_t sequence) { impl_->gone.push_back(sequence); }
 
-void Spool::note_sent(const Carried& carried, Now now) { impl_->sent.emplace_back(carried, now); }
+void Spool::note_sent(const Carried& carried, Now now) {
+    impl_->sent.insert_or_assign(carried.sequence, std::pair(carried, now));
+}
 
 bool Spool::has_notes() const { return !impl_->gone.empty() || !impl_->sent.empty(); }
 
