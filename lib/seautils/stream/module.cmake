@@ -1,1 +1,1 @@
-seautils_module(NAME stream SOURCES input.cpp output.cpp hex.cpp DEPENDS core)
+seautils_module(NAME stream SOURCES hex.cpp input.cpp nmea.cpp output.cpp DEPENDS core)
