@@ -1,0 +1,3 @@
+seautils_module(NAME modem
+  SOURCES fields.cpp sentences.cpp statistics.cpp
+  DEPENDS core stream record LINK fmt::fmt)
