@@ -175,7 +175,7 @@ FlexiblePacket read_flexible_packet(const Sentence& s) {
     const bool timed = s.type() == "RFP";  // time, one field, then as CARDP
     const std::size_t src = timed ? 3 : 1, mini = timed ? 9 : 6;
     f.need(mini + 1);
-    FlexiblePacket p{f.address(src), f.address(src + 1), f.whole(src + 2, 14), {}, {}, true};
+    FlexiblePacket p{f.address(src), f.address(src + 1), f.whole(src + 2, 14), {}, {}, true, timed};
     p.good = read_pieces(f, mini, p.mini);
     p.good = read_pieces(f, mini + 1, p.data) && p.good;
     return p;

@@ -120,6 +120,9 @@ struct FlexiblePacket {
     std::uint32_t src = 0, dest = 0, rate = 0;
     std::string mini, data;
     bool good = true;  ///< no piece was bad; where one was, the packet is not to be used
+    /// Whether mini is the modem's own header (`08`, src, dest …), as CARFP has it, or the user's.
+    bool mini_is_header = false;
+    std::string payload() const { return mini_is_header ? data : mini + data; }
 };
 FlexiblePacket read_flexible_packet(const Sentence& s);
 
