@@ -111,6 +111,7 @@ void Listener::begin(std::uint32_t src, std::uint32_t dest, Moment now, Records&
     reception_.dest = dest;
     if (!cycle_) return;
     reception_.rate = cycle_->rate;
+    rate_known_ = true;
     reception_.ack_requested = cycle_->ack_requested;
 }
 
@@ -185,7 +186,7 @@ void Listener::statistics(const Sentence& s, Moment now, Records& out) {
             mark_missing(stats.frames.value_or(cycle_ ? cycle_->frames : 0));
         if (stats.arrival && (!timed || std::abs(stats.arrival->ns - now.utc.ns) < trusted_ns))
             time_ = *stats.arrival;
-        if (!cycle_ && stats.rate) reception_.rate = *stats.rate;
+        if (!rate_known_ && stats.rate) reception_.rate = *stats.rate;
         reception_.statistics.push_back(stats);
     }
     reset(out);
@@ -202,6 +203,7 @@ void Listener::flexible(const FlexiblePacket& packet, Moment now, Records& out) 
     reset(out);
     begin(packet.src, packet.dest, now, out);
     reception_.rate = packet.rate;
+    rate_known_ = true;
     reception_.ack_requested = false;
     if (packet.good)
         occupy(0, packet.payload());
@@ -245,6 +247,7 @@ void Listener::finish(Records& out) {
     reception_ = {};
     cycle_.reset();
     begun_ = false;
+    rate_known_ = false;
     seen_ = 0;
     wake_.reset();
 }

@@ -59,6 +59,7 @@ private:
     bool begun_ = false;          ///< reception_ has something to tell
     record::UtcTime time_;
     record::Reception reception_;
+    bool rate_known_ = false;
     unsigned seen_ = 0;  ///< bit k: frame k came, good, bad or unused
     std::optional<std::int64_t> wake_;
     record::Range::Method lbl_ = record::Range::Method::lbl_remus;
