@@ -85,7 +85,7 @@ int echo_tool(const Words& words) {
                    << std::to_string(io.files.size()) << " format " << io.format << " from "
                    << io.input_format << " seed " << std::to_string(io.seed) << " max "
                    << std::to_string(io.max_record) << '\n';
-            if (io.time_us) io.out << std::to_string(*io.time_us) << '\n';
+            if (!io.clock.is_system()) io.out << std::to_string(io.now_us()) << '\n';
             return;
         }
         io.warn("a warning");

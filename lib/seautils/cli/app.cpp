@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <charconv>
 #include <csignal>
+#include <cstdlib>
 #include <new>
 
 namespace seautils::cli {
@@ -29,7 +30,7 @@ struct App::Impl {
     std::vector<std::string> input_formats, output_formats;
     std::vector<std::string> configs;
     std::string color = "auto";
-    std::string time;
+    std::string time, clock = "system";
     bool quiet = false, verbose = false, print_config = false;
     CLI::Option* progress = nullptr;
     bool show_progress = true;
@@ -39,6 +40,7 @@ struct App::Impl {
     void parse(int argc, char** argv);
     void apply_config(int argc, char** argv);
     void check_values();
+    void check_clock();
     [[noreturn]] void config_fault(const std::string& what) const;
     void settle();
     void check_format(const char* option, const std::string& name,
@@ -138,6 +140,11 @@ void App::Impl::add_common() {
     if (shared.time) {
         app.add_option("--time", time, "Stands in for the clock: 2024-05-01T12:00:25Z or @SECONDS")
             ->option_text("TIME");
+    }
+    if (shared.clock) {
+        app.add_option("--clock", clock,
+                       "Where time comes from: system, input (of the records), warp:N,BOOT,SIM")
+            ->option_text("CLOCK");
     }
     if (shared.seed)
         app.add_option("--seed", settings.seed, "Seed of random numbers, 0")->option_text("N");
@@ -245,12 +252,24 @@ void App::Impl::check_values() {
     }
     check_format("--input-format", settings.input_format, input_formats);
     check_format("--format", settings.format, output_formats);
-    if (time.empty()) return;
+    check_clock();
+}
+
+/// --time wins over --clock, and that over the environment.
+void App::Impl::check_clock() {
+    const char* inherited = std::getenv("SEAUTILS_CLOCK");
+    const bool inherits = (shared.time || shared.clock) && inherited != nullptr && *inherited != 0;
+    const bool chosen = shared.clock && app.get_option("--clock")->count() > 0;
+    std::string from = chosen || !inherits ? "option --clock" : "SEAUTILS_CLOCK";
     try {
-        settings.time_us = parse_utc(time);
+        settings.clock = Clock(chosen || !inherits ? clock : inherited);
+        from = "option --time";
+        if (!time.empty()) settings.clock = Clock::fixed(parse_utc(time));
     } catch (const DataError& e) {
-        usage(std::string("option --time: ") + e.what());
+        usage(from + ": " + e.what());
     }
+    if (settings.clock.is_input() && !shared.clock)
+        usage("SEAUTILS_CLOCK: this tool's records have no time to take");
 }
 
 /// Turns what was parsed into settings.
@@ -277,6 +296,7 @@ int App::Impl::run(const std::function<void(Io&)>& body) {
         throw;
     }
     out.close();
+    if (io.ended_by != 0) ::raise(io.ended_by);
     return io.refused() > 0 ? status_of(ExitCode::some_refused) : 0;
 }
 

@@ -19,6 +19,7 @@ struct Options {
         false;  ///< -c/--config (may repeat, the first to say a thing wins), --print-config
     bool stream = true;  ///< --strict, --max-record, --follow, --progress; FILE...
     bool time = false;   ///< --time
+    bool clock = false;  ///< --clock
     bool seed = false;   ///< --seed
 };
 

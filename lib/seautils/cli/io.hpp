@@ -1,6 +1,7 @@
 #ifndef SEAUTILS_CLI_IO_HPP
 #define SEAUTILS_CLI_IO_HPP
 
+#include "seautils/cli/clock.hpp"
 #include "seautils/stream/output.hpp"
 
 #include <cstdint>
@@ -31,8 +32,8 @@ struct Settings {
     std::size_t max_record = 1U << 20;
     bool strict = false;
     bool follow = false;
-    std::optional<bool> progress;         ///< --progress, --no-progress
-    std::optional<std::int64_t> time_us;  ///< --time
+    std::optional<bool> progress;  ///< --progress, --no-progress
+    Clock clock;                   ///< --clock, --time, SEAUTILS_CLOCK
     std::uint64_t seed = 0;
     int verbosity = 0;  ///< -1 quiet, 0, 1 …
 };
@@ -70,15 +71,21 @@ public:
     /// The same, and ends the run with status 65.
     [[noreturn]] void stop_at(std::uint64_t offset, const std::string& what);
 
+    /// Reports a record that cannot be used at a place (`file:LINE: `), counts it, obeys --strict.
+    void refuse(const std::string& place, const std::string& what);
+
     /// Messages without a place: a warning (not with -q), an information (only with -v).
     void warn(const std::string& what) const;
     void inform(const std::string& what) const;
 
-    /// The --time given, else the system's clock: microseconds since 1970, UTC.
+    /// The clock's time in microseconds since 1970, UTC.
     std::int64_t now_us() const;
 
     /// Records refused so far.
     std::uint64_t refused() const;
+
+    /// The signal that ended the tool's loop, or 0: App raises it again when all is written.
+    int ended_by = 0;
 
 private:
     struct Impl;

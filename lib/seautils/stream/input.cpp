@@ -51,6 +51,8 @@ bool Input::fill() {
     }
     if (buffer_.size() - padding_bytes - end_ < block_bytes) buffer_.resize(2 * buffer_.size());
     std::size_t got = 0;
+    waits_ = !options_.may_wait && would_wait(fd_);
+    if (waits_) return false;
     if (!read_some(buffer_.data() + end_, buffer_.size() - padding_bytes - end_, got)) {
         ended_ = !replaced_;
         return false;
@@ -114,6 +116,7 @@ void Input::begin_again() {
 
 Input::Got Input::line(std::string_view& line) {
     for (;;) {
+        if (skipping_) return skip_line() ? Got::too_long : Got::wait;
         const std::string_view bytes = held();
         const void* found = searched_ < bytes.size() ? std::memchr(bytes.data() + searched_, '\n',
                                                                    bytes.size() - searched_)
@@ -136,17 +139,17 @@ Input::Got Input::line(std::string_view& line) {
         }
         searched_ = bytes.size();
         if (bytes.size() > options_.max_record + 1) {
-            skip_line();
-            return Got::too_long;
+            ++count_;
+            offset_ = next_offset_;
+            skipping_ = true;
+            continue;
         }
-        fill();
+        if (!fill() && waits_) return Got::wait;
     }
 }
 
-/// Drops everything up to the next line end, in the room of one block.
-void Input::skip_line() {
-    ++count_;
-    offset_ = next_offset_;
+/// Drops everything up to the next line end, in the room of one block. False: it has to wait.
+bool Input::skip_line() {
     for (;;) {
         const std::string_view bytes = held();
         const std::size_t end = bytes.find('\n');
@@ -154,7 +157,9 @@ void Input::skip_line() {
         begin_ += taken;
         next_offset_ += taken;
         searched_ = 0;
-        if (end != bytes.npos || !fill()) return;
+        skipping_ = end == bytes.npos && (fill() || waits_);
+        if (!skipping_) return true;
+        if (waits_) return false;
     }
 }
 
@@ -168,6 +173,7 @@ Input::Got Input::record(std::string_view& record) {
                 if (at == 0) offset_ = next_offset_;
                 continue;
             }
+            if (waits_) return Got::wait;
             if (at == 0) return Got::end;
             ++count_;
             throw Error(ExitCode::data, "the stream ends within the length of a record");
@@ -187,6 +193,10 @@ Input::Got Input::record(std::string_view& record) {
     }
     while (held().size() - at < length) {
         if (!fill()) {
+            if (waits_) {
+                --count_;
+                return Got::wait;
+            }
             throw Error(ExitCode::data, "the stream ends after " +
                                             std::to_string(held().size() - at) +
                                             " of the record's " + counted(length, "byte"));

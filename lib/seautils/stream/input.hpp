@@ -21,6 +21,9 @@ public:
         bool follow = false;  ///< at the end of a file wait for more; open it again when replaced
         /// Called when the next read would have to wait: the place to flush what is buffered.
         std::function<void()> before_wait;
+        /// False: where a read would wait, line() and record() give Got::wait instead; for callers
+        /// that wait for several things at once.
+        bool may_wait = true;
     };
 
     /// Takes over the descriptor. @param path  for --follow; empty where there is none
@@ -29,7 +32,7 @@ public:
     Input(const Input&) = delete;
     Input& operator=(const Input&) = delete;
 
-    enum class Got { record, too_long, end };
+    enum class Got { record, too_long, end, wait };
 
     /// The next line, without `\n` or `\r\n`; a last line needs none. It stays until the next call,
     /// with at least 64 readable bytes behind it. A line above max_record is skipped whole.
@@ -53,12 +56,14 @@ public:
     /// Bytes read in all.
     std::uint64_t bytes_read() const { return bytes_read_; }
 
+    int descriptor() const { return fd_; }
+
 private:
     bool fill();
     bool read_some(char* to, std::size_t room, std::size_t& got);
     bool wait_for_more();
     void begin_again();
-    void skip_line();
+    bool skip_line();
     std::string_view held() const { return {buffer_.data() + begin_, end_ - begin_}; }
 
     int fd_;
@@ -69,6 +74,8 @@ private:
     std::size_t searched_ = 0;  ///< bytes of held() known to have no line end
     std::uint64_t count_ = 0, offset_ = 0, next_offset_ = 0, bytes_read_ = 0;
     bool ended_ = false;
+    bool waits_ = false;     ///< the last read would have had to wait, and may not
+    bool skipping_ = false;  ///< within a line that is too long
     bool replaced_ = false;  ///< the file that what is held came from has ended, another follows
 };
 
