@@ -27,7 +27,7 @@ public:
     explicit Rig(const std::string& scenario, const ReadFile& read = no_files)
         : spec(parse_scenario("s.conf", scenario, epoch, read)),
           said(spec.nodes.size()),
-          ocean(spec, *this),
+          ocean(spec, *this, spec.epoch),
           now(spec.epoch) {}
 
     /// Two modems on one spot line, `range_m` apart, that have booted and say all they can.

@@ -40,8 +40,8 @@ constexpr std::uint64_t first_transponder = 1000;
 struct Ocean::Impl {
     struct Station;
 
-    Impl(const Scenario& s, Sink& to)
-        : scenario(s), sink(to), water(s.water, s.seed), now(s.epoch) {}
+    Impl(const Scenario& s, Sink& to, Time start)
+        : scenario(s), sink(to), water(s.water, s.seed), now(start) {}
 
     Scenario scenario;
     Sink& sink;
@@ -267,14 +267,17 @@ void Ocean::Impl::tell(const Emission& emission, unsigned receiver, const Path& 
     sink.truth(now, truth);
 }
 
-Ocean::Ocean(const Scenario& scenario, Sink& sink) : impl_(std::make_unique<Impl>(scenario, sink)) {
+Ocean::Ocean(const Scenario& scenario, Sink& sink, Time start)
+    : impl_(std::make_unique<Impl>(scenario, sink, start)) {
     for (std::size_t k = 0; k < scenario.nodes.size(); ++k)
         impl_->stations.push_back(std::make_unique<Impl::Station>(*impl_, k));
     for (const auto& station : impl_->stations) {
         Modem& modem = station->modem;
         modem.boot();
-        for (const double since_s : station->spec.reboot_s)
-            impl_->at(scenario.epoch + nanoseconds(since_s), [&modem] { modem.boot(); });
+        for (const double since_s : station->spec.reboot_s) {
+            const Time time = scenario.epoch + nanoseconds(since_s);
+            if (time >= start) impl_->at(time, [&modem] { modem.boot(); });
+        }
     }
 }
 

@@ -65,8 +65,10 @@ public:
 /// - Sentences leave one after the other at the speed of the serial line, 10 bits a byte.
 class Ocean {
 public:
-    /// Switches all modems on at the scenario's epoch.
-    Ocean(const Scenario& scenario, Sink& sink);
+    /// Switches all modems on.
+    /// @param start  when: the scenario's epoch, or later where it is joined under way. Restarts that
+    ///               it plans for before are left out.
+    Ocean(const Scenario& scenario, Sink& sink, Time start);
     ~Ocean();
     Ocean(const Ocean&) = delete;
     Ocean& operator=(const Ocean&) = delete;
