@@ -57,6 +57,31 @@ assert_refused() {
     assert_output $'time_s: 1714564825\ndepth_m: 31.4\nleg: 12'
 }
 
+@test "dccl-decode: in proto3 a default is not set, unless the field has presence" {
+    cat > three.proto <<- 'EOF'
+	syntax = "proto3";
+	import "dccl/option_extensions.proto";
+	message Three {
+	  option (dccl.msg) = { id: 5 max_bytes: 16 codec_version: 4 };
+	  double plain = 1 [(dccl.field) = { min: -2 max: 9 }];
+	  bool flag = 2;
+	  optional double maybe = 3 [(dccl.field) = { min: -2 max: 9 }];
+	  repeated double list = 4 [(dccl.field) = { min: -2 max: 9 max_repeat: 3 }];
+	}
+	EOF
+    # 1 bit: maybe is there; plain: code 3 of 4 bits is 0; flag: code 1 of 2 bits is false; maybe:
+    # code 2 of 4 bits is 0; 2 bits: one element; code 2 of 4 bits is 0
+    run_quiet dccl-decode -s three.proto <<< 0a274900
+    assert_output '{"maybe":0,"list":[0]}'
+    run_quiet dccl-decode -s three.proto -f text <<< 0a274900
+    assert_output 'maybe: 0 list: 0'
+    dccl-decode -s three.proto -f delimited <<< 0a274900 > delimited
+    assert_equal "$(digits < delimited)" 1319000000000000000022080000000000000000
+    # what rounds to the default was set, and travels as the value that it is
+    run_quiet dccl-encode -s three.proto <<< '{"plain":0.4,"maybe":0.4,"list":[0.4]}'
+    assert_output 0a074900
+}
+
 @test "dccl-decode: all forms, to and from, hold the same messages" {
     cat > ndjson << 'END'
 {"text":"a, \"b\"","blob":"AAEC/w==","mood":"BRISK","fix":{"x_m":-1.25,"good":true},"step":[1,-2,0],"count":"4999999999"}
@@ -448,6 +473,9 @@ END
     assert_output '{"Stamp":43200,"Node":31,"_dest_id":1,"temperature":[null,null,null,null]}'
     assert_refused 'the header takes 6 bytes where 5 are left' -s "$dive" <<< 202d2a303e
     assert_refused 'identifier 91 is of no message that is loaded' -s "$dive" <<< 202daa303e10
+    assert_refused 'body is 8 bytes long, more than 7 (message DIVE)' -s "$dive" <<< 202d2a303e100000000000000001
+    echo '<message_set><message><name>B</name><id>1</id><size>32</size><layout><bool><name>b</name></bool></layout></message></message_set>' > bool.xml
+    assert_refused 'body has bits where it is filled up with zeros (message B)' -s bool.xml <<< 20009530000006
     while IFS='|' read -r options said; do
         # shellcheck disable=SC2086  # words of a command line
         run -64 --separate-stderr dccl-decode -s "$dive" $options <<< 202d2a303e10

@@ -79,6 +79,16 @@ lint_of() {
     assert_line --partial 'wide: uses 1102 of 2048 codes (11 bits): max 1946 fits for free, max 922 saves a bit'
 }
 
+@test "dccl-info: a message of version 2 has a row in each part that its bits are in" {
+    schema split 'message M { option (dccl.msg) = { id: 1 max_bytes: 32 codec_version: 2 };
+      message Head { optional int32 a = 1 [(dccl.field) = { min: 0 max: 14 in_head: true }]; }
+      message Body { optional int32 a = 1 [(dccl.field) = { min: 0 max: 14 }]; }
+      message Both { optional int32 a = 1 [(dccl.field) = { min: 0 max: 14 in_head: true }]; optional bool b = 2; }
+      optional Head h = 1; optional Body b = 2; optional Both c = 3; }'
+    run_quiet bash -c "dccl-info -s split.proto -f ndjson | jq -r '.fields[] | .part + \" \" + .path'"
+    assert_output $'head h\nhead h.a\nhead c\nhead c.a\nbody b\nbody b.a\nbody c\nbody c.b'
+}
+
 @test "dccl-info: a body that may be encrypted wants a time in its header" {
     schema notime 'message M { option (dccl.msg) = { id: 1 max_bytes: 32 codec_version: 4 }; required bool b = 1; }'
     run lint_of notime
@@ -89,7 +99,7 @@ lint_of() {
     assert_output ''
 }
 
-@test "dccl-info: ids that collide are named on both sides, and no error here" {
+@test "dccl-info: ids that collide are named on both sides, and an error where -m names both" {
     schema one 'package p; message A { option (dccl.msg) = { id: 9 max_bytes: 32 codec_version: 4 }; required bool b = 1 [(dccl.field).in_head = true]; }
         message B { option (dccl.msg) = { id: 9 max_bytes: 32 codec_version: 3 }; required bool b = 1 [(dccl.field).in_head = true]; }'
     run_quiet dccl-info -s one.proto
@@ -97,6 +107,10 @@ lint_of() {
     assert_line --partial 'p.A has the identifier 9 too'
     run -78 dccl-encode -s one.proto <<< '{}'
     assert_output --partial '9'
+    # either alone is sound; named together they are a receiver's types
+    run_quiet dccl-info -s one.proto -m A
+    run -78 --separate-stderr dccl-info -s one.proto -m A -m B
+    assert_equal "$stderr" 'dccl-info: one.proto:4: id 9 is both message p.A and message p.B'
 }
 
 @test "dccl-info: header leaves that versions 3 and 4 never send are named" {

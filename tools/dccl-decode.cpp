@@ -1,5 +1,6 @@
 // dccl-decode - unpack the bytes of the Dynamic Compact Control Language into messages
 #include "dccl_options.hpp"
+#include "dccl_records.hpp"
 
 #include "seautils/core/text.hpp"
 #include "seautils/dccl/raw_stream.hpp"
@@ -18,8 +19,10 @@ namespace {
 
 class Tool {
 public:
-    Tool(cli::Io& io, const tools::DcclOptions& options)
+    Tool(cli::Io& io, const tools::DcclOptions& options,
+         const tools::ReceptionRecordOptions& records)
         : io_(io), options_(options), types_(options.load(io)) {
+        if (records.records) receptions_.emplace(io, records);
         const bool one_type = io.format == "csv" || io.format == "delimited";
         if (one_type && !types_.single()) {
             throw Error(ExitCode::usage,
@@ -35,19 +38,26 @@ public:
 
     /// A line or a delimited record: one frame, of one message or of several back to back.
     void record(std::string_view record) {
+        if (receptions_)
+            return receptions_->frames(record, [&](std::string_view bytes) { frame(bytes); });
         if (io_.input_format == "hex")
             stream::from_hex(record, bytes_);
         else if (io_.input_format == "base64")
             bytes_ = from_base64(record);
         else
             bytes_ = record;
+        frame(bytes_);
+    }
+
+    /// One message or several back to back, and zeros that fill the frame up.
+    void frame(std::string_view bytes) {
         tick();
-        std::string_view rest = bytes_;
+        std::string_view rest = bytes;
         do {
             try {
                 rest.remove_prefix(message(rest));
             } catch (const DataError& e) {
-                if (rest.size() == bytes_.size()) throw;
+                if (rest.size() == bytes.size()) throw;
                 if (options_.lenient) return;
                 throw DataError(counted(rest.size(), "byte") +
                                 (rest.size() == 1 ? " is left over: " : " are left over: ") +
@@ -59,14 +69,21 @@ public:
 
     dccl::TypeSet& types() { return types_; }
     /// Times are near to the clock's.
-    void tick() { types_.set_now(io_.now_us() / 1'000'000); }
+    void tick() {
+        const bool logged = receptions_ && receptions_->time_ns() > 0;
+        types_.set_now(logged ? receptions_->time_ns() / 1'000'000'000 : io_.now_us() / 1'000'000);
+    }
 
     /// Decodes the message that the bytes begin with, writes it, and returns how many it took.
     std::size_t message(std::string_view bytes) {
         const dccl::TypeSet::Decoded decoded = types_.decode(bytes, values_);
+        if (receptions_ && receptions_->is_again(bytes.substr(0, decoded.bytes)))
+            return decoded.bytes;
         std::string& out = io_.out.buffer();
         if (io_.format == "ndjson") {
+            const std::size_t start = out.size();
             schema::write_json(values_, out, types_.single() ? "" : decoded.type->name);
+            if (receptions_) receptions_->add_received(out, start);
         } else if (io_.format == "text") {
             const std::size_t start = out.size();
             if (!types_.single()) out += "|" + decoded.type->name + "| ";
@@ -90,6 +107,7 @@ private:
     const tools::DcclOptions& options_;
     dccl::TypeSet types_;
     std::optional<schema::CsvWriter> csv_;
+    std::optional<tools::ReceptionReader> receptions_;
     schema::Values values_;
     std::string bytes_, binary_;
 };
@@ -112,12 +130,13 @@ void unframed(cli::Io& io, Tool& tool, bool resync) {
 
 int main(int argc, char** argv) {
     tools::DcclOptions dccl;
+    tools::ReceptionRecordOptions records;
     bool resync = false;
     cli::App app{"dccl-decode",
                  "Unpack the bytes of the Dynamic Compact Control Language into messages.",
                  "  dccl-decode -s status.proto status.hex\n",
                  {.schema = true, .config = true, .time = true}};
-    app.input_formats({"hex", "base64", "delimited", "raw"});
+    app.input_formats({"hex", "base64", "delimited", "raw", "ndjson"});
     app.output_formats({"ndjson", "text", "delimited", "csv"});
     dccl.add_type_options(app.options());
     dccl.add_frame_options(app.options());
@@ -125,8 +144,12 @@ int main(int argc, char** argv) {
                            "Keep the digits of times that only option resolution states");
     app.options().add_flag("--resync", resync,
                            "raw: after bytes of no message, look on for the next");
+    records.add(app.options());
     return app.main(argc, argv, [&](cli::Io& io) {
-        Tool tool(io, dccl);
+        records.check();
+        tools::settle_record_format(records.records, app.options(), "--input-format",
+                                    io.input_format);
+        Tool tool(io, dccl, records);
         if (io.input_format == "raw") return unframed(io, tool, resync);
         const auto framing =
             io.input_format == "delimited" ? cli::Framing::delimited : cli::Framing::lines;

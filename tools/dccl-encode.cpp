@@ -1,5 +1,6 @@
 // dccl-encode - pack messages into the few bytes of the Dynamic Compact Control Language
 #include "dccl_options.hpp"
+#include "dccl_records.hpp"
 
 #include "seautils/core/text.hpp"
 #include "seautils/schema/json.hpp"
@@ -12,7 +13,9 @@ namespace {
 
 class Tool {
 public:
-    Tool(cli::Io& io, const tools::DcclOptions& options) : io_(io), types_(options.load(io)) {
+    Tool(cli::Io& io, const tools::DcclOptions& options, const tools::MessageRecordOptions& records)
+        : io_(io), types_(options.load(io)) {
+        if (records.wanted()) records_.emplace(io, records);
         if (io.input_format != "ndjson" && types_.types()[0].legacy != nullptr) {
             throw Error(ExitCode::usage, "messages of DCCL 1 are read from ndjson only");
         }
@@ -27,7 +30,7 @@ public:
         types_.set_now(io_.now_us() / 1'000'000);
         bytes_.clear();
         types_.encode(type, values_, bytes_);
-        write();
+        records_ ? records_->write(type, values_, bytes_) : write();
     }
 
 private:
@@ -79,6 +82,7 @@ private:
     dccl::TypeSet types_;
     schema::JsonReader json_;
     schema::Values values_;
+    std::optional<tools::MessageRecordWriter> records_;
     std::string bytes_;
 };
 
@@ -86,16 +90,20 @@ private:
 
 int main(int argc, char** argv) {
     tools::DcclOptions dccl;
+    tools::MessageRecordOptions records;
     cli::App app{"dccl-encode",
                  "Pack messages into the few bytes of the Dynamic Compact Control Language.",
                  "  dccl-encode -s status.proto status.ndjson\n",
                  {.schema = true, .config = true, .time = true}};
     app.input_formats({"ndjson", "text", "delimited"});
-    app.output_formats({"hex", "base64", "delimited", "raw"});
+    app.output_formats({"hex", "base64", "delimited", "raw", "ndjson"});
     dccl.add_type_options(app.options());
     dccl.add_frame_options(app.options());
+    records.add(app.options());
     return app.main(argc, argv, [&](cli::Io& io) {
-        Tool tool(io, dccl);
+        records.check();
+        tools::settle_record_format(records.wanted(), app.options(), "--format", io.format);
+        Tool tool(io, dccl, records);
         const auto framing =
             io.input_format == "delimited" ? cli::Framing::delimited : cli::Framing::lines;
         io.for_each(framing, [&](std::string_view record) { tool.record(record); });

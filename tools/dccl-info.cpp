@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     app.output_formats({"text", "ndjson"});
     dccl.add_type_options(app.options());
     return app.main(argc, argv, [&](cli::Io& io) {
-        dccl.keep_collisions = true;
+        dccl.keep_collisions = io.messages.empty();  // types that are named must load together
         const dccl::TypeSet types = dccl.load(io);
         for (const dccl::Survey& survey : dccl::survey(types, io.now_us() / 1'000'000)) {
             std::string& out = io.out.buffer();

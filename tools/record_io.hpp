@@ -3,23 +3,38 @@
 #define SEAUTILS_TOOLS_RECORD_IO_HPP
 
 #include "seautils/cli/app.hpp"
+#include "seautils/core/error.hpp"
 #include "seautils/record/codec.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace seautils::tools {
 
 /// The formats that records have, for App::input_formats and output_formats.
 inline const std::vector<std::string> record_formats{"ndjson", "delimited"};
 
+/// Where a tool of other formats reads or writes records: ndjson when no format is chosen.
+/// @param option  --format or --input-format; what it chose is in `format`
+/// @throws Error(usage)  ndjson without records, or records in another format
+inline void settle_record_format(bool records, const CLI::App& app, const std::string& option,
+                                 std::string& format) {
+    const bool chosen = app.get_option(option)->count() > 0;
+    if (records && !chosen) format = "ndjson";
+    if (!records && format == "ndjson")
+        throw Error(ExitCode::usage, "option " + option + ": ndjson is for --records");
+    if (records && format != "ndjson" && format != "delimited")
+        throw Error(ExitCode::usage, "option " + option + ": records are ndjson or delimited");
+}
+
 /// Records in and out, in the formats of -F and -f.
 class RecordIo {
 public:
-    explicit RecordIo(cli::Io& io)
-        : io_(io), in_(record::form_of(io.input_format)), out_(record::form_of(io.format)) {
+    explicit RecordIo(cli::Io& io) : io_(io), in_(form(io.input_format)), out_(form(io.format)) {
         struct stat status {};
         is_pipe_ = ::fstat(STDOUT_FILENO, &status) == 0 && S_ISFIFO(status.st_mode);
     }
@@ -56,6 +71,10 @@ public:
     record::Form out_form() const { return out_; }
 
 private:
+    /// dccl-encode and dccl-decode have records on one side only.
+    static record::Form form(const std::string& name) {
+        return name == "delimited" ? record::Form::delimited : record::Form::ndjson;
+    }
     void sent() { is_pipe_ ? io_.out.flush() : io_.out.commit(); }
 
     cli::Io& io_;

@@ -171,6 +171,9 @@ private:
             case Type::sfixed64:
                 v.whole = static_cast<std::int64_t>(reader.get(64));
                 return;
+            case Type::boolean:
+                v.whole = reader.get(8) != 0;
+                return;
             default:
                 break;
         }
@@ -188,9 +191,6 @@ private:
                 return;
             case Type::uint64:
                 v.whole = x;
-                return;
-            case Type::boolean:
-                v.whole = x != 0;
                 return;
             case Type::enumeration:
                 if (x > 0x7fffffff) throw Undefined{};
@@ -215,7 +215,8 @@ private:
     std::int64_t now_s_;
 };
 
-/// Version 2's messages in which nothing is set are absent; elements that are not set close up.
+/// Version 2's messages in which nothing is set are absent; elements that are not set close up. A
+/// protobuf message does not say of a zero of proto3 without presence that it is set.
 inline void prune(const Walk& walk, const Message& m, Value& v) {
     for (std::size_t k = 0; k < m.fields.size(); ++k) {
         const Field& f = m.fields[k];
@@ -230,6 +231,8 @@ inline void prune(const Walk& walk, const Message& m, Value& v) {
                                    [](const Value& inner) { return inner.set; });
         };
         if (f.omit) continue;
+        const bool is_zero = value.real == 0 && value.whole == 0 && value.text.empty();
+        if (f.implicit && is_zero) value.set = false;
         if (f.label != Label::repeated) {
             one(value);
             continue;

@@ -349,6 +349,21 @@ TEST(DcclSpec, CountsAboveMaxRepeat) {
     EXPECT_NE(messages.unreadable("02 ff ffff").find("more than max_repeat 5"), std::string::npos);
 }
 
+TEST(DcclSpec, NativeValuesThatNoEncoderWrites) {
+    // A bool is one byte of the header whatever it holds; it was read on into the body as a varint.
+    Bench flag(version(4,
+                       "required bool h = 1 [(dccl.field) = "
+                       "{ codec: \"dccl.native_protobuf\" in_head: true }];"
+                       "required uint32 v = 2 [(dccl.field) = { min: 0 max: 255 }];"));
+    EXPECT_EQ(flag.decode("02 81 05"), "h: true v: 5");
+    EXPECT_EQ(flag.decode("02 00 05"), "h: false v: 5");
+    // protobuf takes the low 32 bits of a varint, 0xffffffff here, and then undoes the zigzag.
+    Bench number(
+        version(4, "required sint32 n = 1 [(dccl.field).codec = \"dccl.native_protobuf\"];"));
+    EXPECT_EQ(number.decode("02 ffffffff0f"), "n: -2147483648");
+    EXPECT_EQ(number.decode("02 ffffffff7f"), "n: -2147483648");
+}
+
 TEST(DcclSpec, PaddingBitsAreNotLookedAt) {
     Bench b(version(4, "required bool h = 1 [(dccl.field).in_head = true]; required bool v = 2;"));
     EXPECT_EQ(b.decode("02 ff fe"), "h: true v: false");

@@ -98,6 +98,7 @@ private:
     void step(const Op& op, std::size_t at, const Frame& frame);
     void conditional(const Op& op, std::size_t at, const Frame& frame);
     void single(const Op& op, std::size_t at, std::uint32_t slot, const Frame& frame);
+    void settle(const Op& op, std::uint32_t slot);
     void repeated(const Op& op, std::size_t at, const Frame& frame);
     void selectors(const Op& op, const Frame& frame);
     void value(const Op& op, std::size_t at, std::uint32_t slot, const Frame& frame);

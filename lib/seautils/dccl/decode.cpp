@@ -76,6 +76,14 @@ void Decoder::conditional(const Op& op, std::size_t at, const Frame& frame) {
 void Decoder::single(const Op& op, std::size_t at, std::uint32_t slot, const Frame& frame) {
     if (op.presence_bit && reader_->get(1) == 0) return;
     value(op, at, slot, frame);
+    settle(op, slot);
+}
+
+/// As in a protobuf message: of proto3's fields without presence, one that holds the default is
+/// unset, though the wire has a code for each.
+void Decoder::settle(const Op& op, std::uint32_t slot) {
+    if (op.repeated || op.field->has_presence) return;
+    if (is_default(*op.field, values_[slot])) values_[slot].present = false;
 }
 
 void Decoder::repeated(const Op& op, std::size_t at, const Frame& frame) {

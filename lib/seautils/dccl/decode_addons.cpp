@@ -86,7 +86,7 @@ void Decoder::arithmetic(const Op& op, const Frame& frame) {
     };
     if (!op.repeated) {
         if (!codec_.run.empty()) keep(list, codec_.run.front());
-        return;
+        return settle(op, list);
     }
     const std::uint32_t first =
         values_.add_elements(list, static_cast<std::uint32_t>(codec_.run.size()));

@@ -33,8 +33,8 @@ private:
     void code(const LegacyField& f, std::uint32_t slot, std::uint64_t code, bool is_key);
     void text(const LegacyField& f, std::uint32_t slot, MsbReader& in);
     void resolve(const LegacyField& f, std::uint32_t first);
-    void refused(const std::string& what) const {
-        if (!options_.lenient) throw FieldError{{}, what};
+    void refused(const std::string& what, const std::string& path = {}) const {
+        if (!options_.lenient) throw FieldError{path, what};
     }
 
     const LegacyMessage& message_;
@@ -79,10 +79,11 @@ void LegacyDecoder::head(std::string_view bytes) {
 void LegacyDecoder::body(std::string_view bytes) {
     const std::uint64_t most = (message_.body_bits() + 7) / 8;
     if (bytes.size() > most)
-        refused(fmt::format("has a body of {}, more than {}", counted(bytes.size(), "byte"), most));
+        refused(fmt::format("is {} long, more than {}", counted(bytes.size(), "byte"), most),
+                "body");
     MsbReader in(bytes);
     if (in.get(static_cast<unsigned>((8 - message_.body_bits() % 8) % 8)) != 0) {
-        refused("has bits where its body is filled up with zeros");
+        refused("has bits where it is filled up with zeros", "body");
     }
     std::uint32_t slot = header_parts;
     for (const LegacyField& f : message_.fields()) {

@@ -78,17 +78,20 @@ void get_native(const schema::Field& field, BitReader& reader, schema::Slot& slo
             slot.u = reader.get(64);
             return;
         case WireForm::zigzag: {
-            const std::int64_t x = unzigzag(get_varint(reader));
-            slot.i = field.kind == Kind::int32 ? static_cast<std::int32_t>(x) : x;
+            std::uint64_t x = get_varint(reader);
+            if (field.kind == Kind::int32) x &= 0xffffffff;  // as protobuf: cut, then undone
+            slot.i = unzigzag(x);
             return;
         }
         default:
             break;
     }
+    if (field.kind == Kind::boolean) {  // one byte, as the header's size is fixed
+        slot.i = reader.get(8) != 0 ? 1 : 0;
+        return;
+    }
     const std::uint64_t x = get_varint(reader);
-    if (field.kind == Kind::boolean)
-        slot.i = x != 0 ? 1 : 0;
-    else if (field.kind == Kind::int32 || field.kind == Kind::enumeration)
+    if (field.kind == Kind::int32 || field.kind == Kind::enumeration)
         slot.i = static_cast<std::int32_t>(x);
     else if (field.kind == Kind::uint32)
         slot.u = static_cast<std::uint32_t>(x);

@@ -8,6 +8,8 @@
 #include <google/protobuf/descriptor.h>
 
 #include <cmath>
+#include <string_view>
+#include <unordered_set>
 
 namespace seautils::dccl {
 
@@ -64,6 +66,22 @@ std::optional<TypicalBytes> typical_bytes(const std::shared_ptr<const Program>& 
     return TypicalBytes{dccl.size(), protobuf.size(), plain_bytes(values)};
 }
 
+/// The rows that tell something: a version 2 message is entered for the header and again for the
+/// body, and has a row in the part that none of its bits are in.
+std::vector<FieldSurvey> describe_fields(const Program& program) {
+    const std::vector<FieldReport> report = program.report();
+    std::unordered_set<std::string_view> travelling;
+    for (const FieldReport& row : report) {
+        if (row.max_bits > 0) travelling.insert(row.path);
+    }
+    std::vector<FieldSurvey> fields;
+    for (const FieldReport& row : report) {
+        const bool elsewhere = row.max_bits == 0 && travelling.contains(row.path);
+        if (!elsewhere) fields.push_back(describe(row));
+    }
+    return fields;
+}
+
 Survey describe(const std::shared_ptr<const Program>& shared, std::int64_t now_s) {
     const Program& program = *shared;
     Survey s;
@@ -78,7 +96,7 @@ Survey describe(const std::shared_ptr<const Program>& shared, std::int64_t now_s
     s.min_bytes = program.smallest_bytes();
     s.max_bytes = program.largest_bytes();
     s.limit_bytes = program.max_bytes();
-    for (const FieldReport& row : program.report()) s.fields.push_back(describe(row));
+    s.fields = describe_fields(program);
     s.typical = typical_bytes(shared, now_s);
     s.remarks = lint(program);
     return s;

@@ -1,1 +1,1 @@
-seautils_module(NAME record SOURCES codec.cpp DEPENDS core stream schema)
+seautils_module(NAME record SOURCES codec.cpp duplicates.cpp DEPENDS core stream schema)

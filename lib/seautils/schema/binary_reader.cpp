@@ -160,10 +160,6 @@ private:
         }
     }
 
-    static bool is_default(const Field& f, const Slot& s) {
-        return f.kind == Kind::string || f.kind == Kind::bytes ? s.aux == 0 : s.u == 0;
-    }
-
     void scalar(Bytes& in, const Field& f, std::uint32_t slot) {
         if (f.wire_form == WireForm::length) {
             const std::string_view text = in.get_bytes(in.get_varint());

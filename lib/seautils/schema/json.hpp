@@ -39,7 +39,7 @@ public:
     /// empty. Looks at no more than the keys. @throws DataError  not an object
     std::string type_of(std::string_view json);
 
-    /// @param json  one object; the key "@type" is skipped at the top level
+    /// @param json  one object; keys that begin with '@' ("@type") are skipped at the top level
     /// @return whether all was known
     /// @throws DataError  as above; `values` is then unspecified
     bool read(std::string_view json, const Layout& layout, Values& values,

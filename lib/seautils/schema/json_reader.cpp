@@ -34,7 +34,7 @@ public:
             const std::string_view key = member.unescaped_key();
             const std::int32_t index = layout.find(key, hint);
             if (index < 0) {
-                if (depth == 1 && key == "@type") {
+                if (depth == 1 && key.starts_with('@')) {
                     ignore(member.value());
                     continue;
                 }
@@ -101,10 +101,7 @@ private:
         }
         if (f.repeated) return list(value, f, slot, depth);
         scalar(value, f, slot, depth);
-        if (f.has_presence) return;
-        Slot& s = values_[slot];
-        const bool is_text = f.kind == Kind::string || f.kind == Kind::bytes;
-        if (is_text ? s.aux == 0 : s.u == 0) s.present = false;  // proto3: the default is "unset"
+        if (!f.has_presence && is_default(f, values_[slot])) values_[slot].present = false;
     }
 
     void list(sj::value value, const Field& f, std::uint32_t slot, int depth) {

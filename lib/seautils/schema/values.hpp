@@ -81,6 +81,13 @@ private:
     std::string text_;
 };
 
+/// Whether a scalar holds its type's default. Where the field has no presence (proto3), that means
+/// unset.
+inline bool is_default(const Field& field, const Slot& slot) {
+    const bool is_text = field.kind == Kind::string || field.kind == Kind::bytes;
+    return is_text ? slot.aux == 0 : slot.u == 0;
+}
+
 /// Whether the same fields are present with the same bits; any NaN equals any other.
 bool equal(const Values& a, const Values& b);
 
