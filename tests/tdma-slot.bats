@@ -203,11 +203,11 @@ END
 }
 
 @test "tdma-slot: a configuration file names its line; slots come in its order" {
-    cat > link.conf <<< $'# slots\nslot = src=1 length=15\nslot = src=2 lenght=15'
+    cat > link.conf <<< $'# slots\nslot = src=1 length=15\nslot = src=2 longth=15'
     run -78 --separate-stderr tdma-slot -c link.conf --id 1
     # the first line that sets the option is what can be told of it
-    assert_equal "$stderr" "tdma-slot: link.conf:2: option --slot: 'lenght' is none of src, dest, rate, length, kind, mini"
-    sed -i s/lenght/length/ link.conf
+    assert_equal "$stderr" "tdma-slot: link.conf:2: option --slot: 'longth' is none of src, dest, rate, length, kind, mini"
+    sed -i s/longth/length/ link.conf
     tdma-slot -c link.conf --from @0 --to @30 | jq .slot.src > got
     assert_equal "$(cat got)" $'1\n2'
 }
