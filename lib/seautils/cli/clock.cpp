@@ -39,6 +39,19 @@ Clock Clock::fixed(std::int64_t utc_us) {
     return clock;
 }
 
+std::string Clock::word() const {
+    switch (kind_) {
+        case Kind::system:
+            return "system";
+        case Kind::input:
+            return "input";
+        case Kind::warp:
+            return format_warp(warp_);
+        default:
+            return format_warp({0.001, 0, ns_ / 1000});
+    }
+}
+
 std::int64_t Clock::now_ns() const {
     switch (kind_) {
         case Kind::system:

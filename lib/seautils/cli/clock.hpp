@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace seautils::cli {
@@ -29,6 +30,9 @@ public:
     /// Nanoseconds on a clock that no one steps; only differences mean something. With `input` as
     /// now_ns().
     std::int64_t steady_ns() const;
+
+    /// What another program is to be told, to take the time from the same clock.
+    std::string word() const;
 
     bool is_input() const { return kind_ == Kind::input; }
     bool is_system() const { return kind_ == Kind::system; }

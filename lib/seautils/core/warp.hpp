@@ -11,9 +11,9 @@ namespace seautils {
 /// it runs `factor` times as fast as the time since the machine's start (CLOCK_BOOTTIME, which no
 /// one steps, and which is the first word of /proc/uptime).
 struct WarpedClock {
-    double factor = 1;          ///< 0.001 to 1000
-    std::int64_t boot_ns = 0;   ///< time since the machine's start at which simulated time is sim_us
-    std::int64_t sim_us = 0;    ///< microseconds since 1970, UTC
+    double factor = 1;         ///< 0.001 to 1000
+    std::int64_t boot_ns = 0;  ///< time since the machine's start at which simulated time is sim_us
+    std::int64_t sim_us = 0;   ///< microseconds since 1970, UTC
 
     /// Simulated nanoseconds since 1970 at a time since the machine's start.
     std::int64_t sim_ns_at(std::int64_t boot) const;

@@ -1,0 +1,134 @@
+// mm-sim - simulated Micro-Modems on pseudo-terminals, sharing one simulated ocean
+#include "mm_sim_bench.hpp"
+
+#include "seautils/core/error.hpp"
+#include "seautils/core/warp.hpp"
+
+#include <sys/stat.h>
+#include <time.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+using namespace seautils;
+
+namespace {
+
+/// What the command line says beside what all tools share.
+struct Options {
+    std::string folder = ".";
+    double warp = 0;  ///< 0: not said
+    double duration_s = 0;
+    bool raw = false;
+};
+
+std::string file_text(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw Error(ExitCode::no_input, file + ": " + std::strerror(errno));
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Files that a scenario names are looked for beside it.
+sim::Scenario load(const std::string& file, sim::Time now) {
+    const std::string folder = file.substr(0, file.rfind('/') + 1);
+    const sim::Scenario scenario =
+        sim::parse_scenario(file, file_text(file), now, [&](const std::string& name) {
+            return file_text(name.starts_with('/') ? name : folder + name);
+        });
+    for (const sim::NodeSpec& node : scenario.nodes)
+        if (node.name == "clock") throw ConfigError(file + ": the name 'clock' is taken");
+    return scenario;
+}
+
+std::int64_t since_boot_ns() {
+    timespec now{};
+    ::clock_gettime(CLOCK_BOOTTIME, &now);
+    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+void make_folder(const std::string& folder) {
+    if (::mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST)
+        throw Error(ExitCode::cannot_create, folder + ": " + std::strerror(errno));
+}
+
+/// The scenario's clock, of which all other tools take theirs, unless one was given.
+std::string choose_clock(cli::Io& io, const Options& options, sim::Time epoch) {
+    if (!io.clock.is_system()) {
+        if (io.clock.is_input())
+            throw Error(ExitCode::usage, "option --clock: 'input' makes no time pass");
+        if (options.warp != 0)
+            throw Error(ExitCode::usage, "option --warp: the clock is given already");
+        return io.clock.word();
+    }
+    const double factor = options.warp == 0 ? 1 : options.warp;
+    const std::string word = format_warp({factor, since_boot_ns(), epoch / 1000});
+    io.clock = cli::Clock(word);
+    return word;
+}
+
+/// A file that tells other programs the clock, while this one runs.
+class ClockFile {
+public:
+    /// Under another name first: a reader finds all of it, or nothing.
+    ClockFile(std::string file, const std::string& word) : file_(std::move(file)) {
+        const std::string fresh = file_ + ".new";
+        std::ofstream out(fresh, std::ios::binary);
+        out << word << '\n';
+        out.close();
+        if (!out || std::rename(fresh.c_str(), file_.c_str()) != 0)
+            throw Error(ExitCode::cannot_create, file_ + ": " + std::strerror(errno));
+    }
+    ~ClockFile() { std::remove(file_.c_str()); }
+    ClockFile(const ClockFile&) = delete;
+    ClockFile& operator=(const ClockFile&) = delete;
+
+private:
+    std::string file_;
+};
+
+void simulate(cli::Io& io, const Options& options) {
+    const sim::Scenario scenario = load(io.files.at(0), io.clock.now_ns());
+    const std::string word = choose_clock(io, options, scenario.epoch);
+    make_folder(options.folder);
+    const ClockFile clock_file(options.folder + "/clock", word);
+    const sim::Time start = io.clock.now_ns();
+    tools::MmSimBench bench(io, scenario, options.folder, options.raw);
+    cli::Loop loop(io);
+    bench.run(loop,
+              options.duration_s == 0 ? sim::never : start + sim::nanoseconds(options.duration_s));
+    if (bench.overrun() > 0)
+        io.warn(counted(bench.overrun(), "sentence") + " lost: a host did not read them in time");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    cli::App app{"mm-sim",
+                 "Simulate Micro-Modems on pseudo-terminals, sharing one simulated ocean.",
+                 "  mm-sim --dir run --warp 10 two-nodes.conf > truth.ndjson\n",
+                 {.stream = false, .clock = true}};
+    app.output_formats(tools::record_formats);
+    app.options()
+        .add_option("--dir", options.folder, "Folder of the terminals' links (.)")
+        ->option_text("DIR");
+    app.options()
+        .add_option("--warp", options.warp, "Run N times as fast, 0.001 to 1000 (1)")
+        ->option_text("N")
+        ->check(CLI::Range(0.001, 1000.0));
+    app.options()
+        .add_option("--duration", options.duration_s, "End after so much simulated time")
+        ->option_text("SECONDS")
+        ->check(CLI::Range(0.001, 1e8));
+    app.options().add_flag("--raw", options.raw, "Write each line of the serial lines too");
+    std::string scenario;
+    app.options().add_option("SCENARIO", scenario, "What is simulated")->required();
+    return app.main(argc, argv, [&](cli::Io& io) {
+        io.files = {scenario};
+        io.input_format = io.format;
+        simulate(io, options);
+    });
+}
