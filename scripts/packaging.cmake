@@ -71,7 +71,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libseautils-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS seautils)
 set(needed libboost-program-options-dev libcli11-dev libcrypto++-dev libfmt-dev liblua5.3-dev
-    libprotobuf-dev libprotoc-dev libpugixml-dev libsimdjson-dev pkgconf)
+    libprotobuf-dev libprotoc-dev libpugixml-dev libsimdjson-dev libsqlite3-dev pkgconf)
 list(JOIN needed ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 set(CPACK_COMPONENT_DEV_DESCRIPTION
 "Development files: the static libraries and headers behind the tools. The DCCL

@@ -206,6 +206,30 @@ END
     assert_output $'{"seq":7}\n{"seq":0}'
 }
 
+@test "dccl-decode: a message that takes no bytes is read once, and does not go on for ever" {
+    printf '%s\n' 'syntax = "proto2"; import "dccl/option_extensions.proto"; message Mute {' \
+        'option (dccl.msg) = { omit_id: true max_bytes: 8 codec_version: 4 };' \
+        'required uint32 a = 1 [(dccl.field) = { min: 3 max: 3 }]; }' > mute.proto
+    run_quiet bash -c "dccl-encode -s mute.proto -f delimited | dccl-decode -s mute.proto -F delimited" <<< $'{"a":3}\n{"a":3}'
+    assert_output $'{"a":3}\n{"a":3}'
+    run -1 --separate-stderr timeout 10 dccl-decode -s mute.proto <<< ff
+    assert_output '{"a":3}'
+    assert_equal "$stderr" 'dccl-decode: <stdin>:1: 1 byte is left over: the message takes no bytes'
+    for resync in '' --resync; do
+        # shellcheck disable=SC2086  # no word, or one
+        run --separate-stderr timeout 10 dccl-decode -s mute.proto -F raw $resync <<< x
+        assert_output '{"a":3}'
+        assert_equal "$status" $((${#resync} ? 1 : 65))
+        assert_regex "$stderr" '^dccl-decode: <stdin>:byte 0: the message takes no bytes'
+    done
+    # An empty line would be no record, and raw nothing at all.
+    for format in hex base64 raw; do
+        run -1 --separate-stderr dccl-encode -s mute.proto -f $format <<< '{"a":3}'
+        assert_output ''
+        assert_equal "$stderr" 'dccl-encode: <stdin>:1: the message takes no bytes, which only delimited can hold'
+    done
+}
+
 @test "dccl-decode: a bad record is refused for what is wrong with it" {
     while IFS='|' read -r record said; do
         assert_refused "$said" -s nav.proto <<< "$record"

@@ -364,12 +364,21 @@ END
 64|--passphrase-file ''|option --passphrase-file: the value is empty
 64|--passphrase-file= passphrase|option --passphrase-file: the value is empty
 64|--passphrase-file passphrase --passphrase-fd 5|options --passphrase-file and --passphrase-fd exclude each other
+64|--passphrase-fd -5|option --passphrase-fd: '-5' is below 0
+64|--passphrase-fd 0 < passphrase|the passphrase and the records cannot both be standard input
+64|--passphrase-fd 0 good - < passphrase|the passphrase and the records cannot both be standard input
 64|--passphrase-fd one|option --passphrase-fd: 'one' is no whole number, or one too large
 64|--skip-crypto-id ten|option --skip-crypto-id: 'ten' is no whole number, or one too large
 END
     SEAUTILS_PASSPHRASE_FILE=gone run -66 --separate-stderr dccl-encode -s nav.proto <<< "$message"
     assert_equal "$stderr" 'dccl-encode: gone: No such file or directory'
     run -64 dccl-encode -s nav.proto --passphrase 'correct horse' <<< "$message"
+    echo 'passphrase-fd = -5' > some.conf
+    run -78 --separate-stderr dccl-encode -s nav.proto -c some.conf <<< "$message"
+    assert_equal "$stderr" "dccl-encode: some.conf:1: option --passphrase-fd: '-5' is below 0"
+    echo "$message" > in
+    run_quiet dccl-encode -s nav.proto --passphrase-fd 0 in < passphrase
+    refute_output $frame
     # the option wins over a file that says it in another way
     echo 'passphrase-file = gone' > some.conf
     run_quiet dccl-encode -s nav.proto -c some.conf --passphrase-fd 5 <<< "$message" 5< passphrase
@@ -411,6 +420,8 @@ END
     assert_regex "$stderr" '^dccl-encode: nav.proto: arithmetic model: '
     run -78 --separate-stderr dccl-encode -s series.proto --arithmetic-model steps.textpb --arithmetic-model steps.textpb
     assert_equal "$stderr" "dccl-encode: steps.textpb: arithmetic model 'steps' is given twice"
+    run -78 --separate-stderr dccl-encode -s series.proto --arithmetic-model /dev/zero
+    assert_equal "$stderr" 'dccl-encode: /dev/zero: longer than 1 MiB'
     run -66 --separate-stderr dccl-encode -s series.proto --arithmetic-model gone.textpb
     assert_equal "$stderr" 'dccl-encode: gone.textpb: No such file or directory'
 }

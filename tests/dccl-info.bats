@@ -36,6 +36,8 @@ lint_of() {
     run_quiet bash -c "dccl-info -s sum.proto -f ndjson |
         jq -c '[.id, .id_bits, .head_max_bits, .body_max_bits, .min_bytes, .largest_bytes, .max_bytes, [.fields[].max_bits]]'"
     assert_output '[170,16,4,9,5,5,32,[4,8,1]]'
+    run_quiet dccl-info -s sum.proto
+    assert_line '  identifier 16 bits, header 4 bits, body 9 bits'
 }
 
 @test "dccl-info: each field has its bounds, step, length, repeats and part" {
@@ -97,6 +99,8 @@ lint_of() {
       required bool b = 1 [(dccl.field).in_head = true]; }'
     run lint_of headonly
     assert_output ''
+    run_quiet dccl-info -s headonly.proto
+    assert_line '  identifier 8 bits, header 1 bit, body 0 bits'
 }
 
 @test "dccl-info: ids that collide are named on both sides, and an error where -m names both" {
@@ -193,6 +197,11 @@ lint_of() {
     echo 'message {' > broken.proto
     run -78 --separate-stderr dccl-info -s broken.proto
     [[ $stderr == 'dccl-info: broken.proto:1'* ]] || fail "$stderr"
+}
+
+@test "dccl-info: a passphrase is none of its business" {
+    SEAUTILS_PASSPHRASE_FILE=gone run_quiet dccl-info -s "$schemas" -m WinchControl
+    assert_line --index 0 --partial 'WinchControl: id 107'
 }
 
 @test "dccl-info: a schema may come through a pipe" {

@@ -48,6 +48,16 @@ make_debs() {
     assert_works "$usr"
 }
 
+@test "packaging: the demo builds all that is installed" {
+    command -v ninja > /dev/null || skip "ninja is not installed"
+    [[ $(from_cache CMAKE_GENERATOR) == Ninja ]] || skip "only Ninja says what a target is made of"
+    read -ra targets < <(sed -n 's/.*--target \([a-z ]*\);.*/\1/p' "$BATS_TEST_DIRNAME/../scripts/demo")
+    ninja -C "$build" -t commands "${targets[@]}" > made
+    for file in "$usr"/bin/* "$usr"/lib/*.a "$usr"/lib/*/*.a "$usr"/share/man/man?/*; do
+        [[ ! -e $file ]] || grep -qE "/${file##*/}( |\$)" made || fail "$file is not made by ${targets[*]}"
+    done
+}
+
 @test "packaging: a tool runs from another prefix" {
     run_quiet cmake --install "$build" --prefix "$BATS_TEST_TMPDIR/opt"
     mv opt moved
@@ -127,8 +137,8 @@ make_debs() {
     refute_line --regexp '/(bin|man|schemas)/'
     # Each package that the build looks for is there, by the name that dpkg knows it under.
     depends=$(dpkg-deb -f "$dev_deb" Depends)
-    for header in google/protobuf/message.h fmt/format.h simdjson.h pugixml.hpp CLI/CLI.hpp \
-        boost/program_options.hpp crypto++/aes.h lua5.3/lua.h; do
+    for header in google/protobuf/message.h google/protobuf/compiler/importer.h fmt/format.h simdjson.h \
+        pugixml.hpp CLI/CLI.hpp boost/program_options.hpp crypto++/aes.h lua5.3/lua.h; do
         package=$(dpkg -S "/usr/include/$header" | sed 's/:.*//')
         # Boost's headers are in a package of a version, on which the one without depends.
         [[ $header == boost/* ]] && package=libboost-program-options-dev

@@ -23,16 +23,13 @@ public:
          const tools::ReceptionRecordOptions& records)
         : io_(io), options_(options), types_(options.load(io)) {
         if (records.records) receptions_.emplace(io, records);
-        const bool one_type = io.format == "csv" || io.format == "delimited";
-        if (one_type && !types_.single()) {
-            throw Error(ExitCode::usage,
-                        io.format + " holds messages of one type: choose it with -m");
-        }
+        const auto usage = [](const std::string& what) { throw Error(ExitCode::usage, what); };
+        if ((io.format == "csv" || io.format == "delimited") && !types_.single())
+            usage(io.format + " holds messages of one type: choose it with -m");
         if (io.format == "csv")
             csv_.emplace(*types_.types()[0].layout, dccl::repeats(types_.types()[0]));
-        if (io.format != "ndjson" && io.format != "csv" && types_.types()[0].legacy != nullptr) {
-            throw Error(ExitCode::usage, "messages of DCCL 1 are written as ndjson or csv only");
-        }
+        if (io.format != "ndjson" && io.format != "csv" && types_.types()[0].legacy != nullptr)
+            usage("messages of DCCL 1 are written as ndjson or csv only");
         if (csv_) csv_->header(io.out.buffer());
     }
 
@@ -51,31 +48,30 @@ public:
 
     /// One message or several back to back, and zeros that fill the frame up.
     void frame(std::string_view bytes) {
-        tick();
-        std::string_view rest = bytes;
-        do {
-            try {
-                rest.remove_prefix(message(rest));
-            } catch (const DataError& e) {
-                if (rest.size() == bytes.size()) throw;
-                if (options_.lenient) return;
-                throw DataError(counted(rest.size(), "byte") +
-                                (rest.size() == 1 ? " is left over: " : " are left over: ") +
-                                e.what());
-            }
-            if (options_.header_only) return;
-        } while (!rest.empty() && !types_.is_padding(rest));
+        if (options_.header_only)
+            message(bytes);
+        else
+            dccl::decode_record(types_, bytes, decode_, options_.lenient);
     }
 
-    dccl::TypeSet& types() { return types_; }
-    /// Times are near to the clock's.
-    void tick() {
-        const bool logged = receptions_ && receptions_->time_ns() > 0;
-        types_.set_now(logged ? receptions_->time_ns() / 1'000'000'000 : io_.now_us() / 1'000'000);
+    /// Messages back to back, up to the first byte at which none begins; beyond it with --resync.
+    void unframed(bool resync) {
+        const auto refuse = [&](std::uint64_t offset, const std::string& what) {
+            if (!resync) io_.stop_at(offset, what + " (--resync looks on for the next message)");
+            io_.refuse_at(offset, what);
+        };
+        dccl::RawStream stream(types_, decode_, refuse);
+        io_.for_each_block([&](std::string_view bytes, std::uint64_t offset, bool ended) {
+            return stream.take(bytes, offset, ended);
+        });
     }
 
+private:
     /// Decodes the message that the bytes begin with, writes it, and returns how many it took.
     std::size_t message(std::string_view bytes) {
+        // Times are near to the record's, or to the clock's.
+        const bool logged = receptions_ && receptions_->time_ns() > 0;
+        types_.set_now(logged ? receptions_->time_ns() / 1'000'000'000 : io_.now_us() / 1'000'000);
         const dccl::TypeSet::Decoded decoded = types_.decode(bytes, values_);
         if (receptions_ && receptions_->is_again(bytes.substr(0, decoded.bytes)))
             return decoded.bytes;
@@ -102,7 +98,6 @@ public:
         return decoded.bytes;
     }
 
-private:
     cli::Io& io_;
     const tools::DcclOptions& options_;
     dccl::TypeSet types_;
@@ -110,21 +105,8 @@ private:
     std::optional<tools::ReceptionReader> receptions_;
     schema::Values values_;
     std::string bytes_, binary_;
+    const dccl::RawStream::Decode decode_ = [this](std::string_view b) { return message(b); };
 };
-
-/// Messages back to back, up to the first byte at which none begins; beyond it with --resync.
-void unframed(cli::Io& io, Tool& tool, bool resync) {
-    const auto decode = [&](std::string_view bytes) { return tool.message(bytes); };
-    const auto refuse = [&](std::uint64_t offset, const std::string& what) {
-        if (!resync) io.stop_at(offset, what + " (--resync looks on for the next message)");
-        io.refuse_at(offset, what);
-    };
-    dccl::RawStream stream(tool.types(), decode, refuse);
-    io.for_each_block([&](std::string_view bytes, std::uint64_t offset, bool ended) {
-        tool.tick();
-        return stream.take(bytes, offset, ended);
-    });
-}
 
 }  // namespace
 
@@ -150,7 +132,7 @@ int main(int argc, char** argv) {
         tools::settle_record_format(records.records, app.options(), "--input-format",
                                     io.input_format);
         Tool tool(io, dccl, records);
-        if (io.input_format == "raw") return unframed(io, tool, resync);
+        if (io.input_format == "raw") return tool.unframed(resync);
         const auto framing =
             io.input_format == "delimited" ? cli::Framing::delimited : cli::Framing::lines;
         io.for_each(framing, [&](std::string_view record) { tool.record(record); });

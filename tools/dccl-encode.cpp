@@ -30,6 +30,9 @@ public:
         types_.set_now(io_.now_us() / 1'000'000);
         bytes_.clear();
         types_.encode(type, values_, bytes_);
+        const bool told = records_ || io_.format == "delimited";
+        if (bytes_.empty() && !told)
+            throw DataError("the message takes no bytes, which only delimited can hold");
         records_ ? records_->write(type, values_, bytes_) : write();
     }
 

@@ -23,6 +23,7 @@ namespace seautils::tools {
 
 struct DcclOptions {
     bool keep_collisions = false;  ///< types that share an identifier do no harm here
+    bool frames = false;           ///< what is encrypted concerns this tool
     bool lenient = false;
     bool header_only = false;
     bool full_time_resolution = false;
@@ -47,6 +48,7 @@ struct DcclOptions {
     }
     /// What decides on frames: encoder and decoder.
     void add_frame_options(CLI::App& app) {
+        frames = true;
         app.add_flag("--lenient", lenient,
                      "Do as the reference library does where that loses data");
         app.add_flag("--header-only", header_only, "Code the header alone");
@@ -55,6 +57,9 @@ struct DcclOptions {
                          ->option_text("FILE");
         app.add_option("--passphrase-fd", passphrase_fd, "The same from an open descriptor")
             ->option_text("N")
+            ->check([](const std::string& n) {
+                return n.starts_with('-') ? quote(n) + " is below 0" : std::string();
+            })
             ->excludes(file);
         app.add_option("--skip-crypto-id", skip_crypto_ids,
                        "Do not encrypt messages of this id; may repeat")
@@ -130,18 +135,23 @@ inline void DcclOptions::check_legacy(const dccl::TypeSet& types, const cli::Io&
 }
 
 inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
+    if (passphrase_fd == STDIN_FILENO && io.reads_stdin()) {
+        throw Error(ExitCode::usage,
+                    "the passphrase and the records cannot both be standard input");
+    }
     dccl::CodecOptions codec;
     codec.lenient = lenient;
     codec.header_only = header_only;
     codec.full_time_resolution = full_time_resolution;
-    codec.passphrase = passphrase();
+    if (frames) codec.passphrase = passphrase();
     codec.skip_crypto_ids.insert(skip_crypto_ids.begin(), skip_crypto_ids.end());
     codec.now_s = io.now_us() / 1'000'000;
     dccl::ProgramOptions program;
     program.id_codec = id_codec == "ccl" ? dccl::IdCodec::ccl : dccl::IdCodec::standard;
     for (const std::string& file : arithmetic_models) {
+        const std::string text = file_text(file);
         try {
-            dccl::add_model(file_text(file), program.models);
+            dccl::add_model(text, program.models);
         } catch (const ConfigError& e) {
             throw ConfigError(file + ": " + e.what());
         }

@@ -44,6 +44,29 @@ TEST(CliConfigFile, KeysSectionsAndComments) {
     EXPECT_EQ(parse("schema = a=b\n"), (Values{{"schema", {"a=b"}}}));
 }
 
+TEST(CliConfigFile, AnyKeyOfAFamilyOfSections) {
+    const std::vector<ConfigOption> family{{"id", "", "N"}, {"queue.*", "", ""}};
+    const auto values = [&](const std::string& text) {
+        return parse_config("t.conf", text, family);
+    };
+    EXPECT_EQ(values("id = 3\n[queue]\nttl_s = 5\n[queue.12]\nack = true\n[queue.12.3]\nack=false"),
+              (Values{{"id", {"3"}},
+                      {"queue.ttl_s", {"5"}},
+                      {"queue.12.ack", {"true"}},
+                      {"queue.12.3.ack", {"false"}}}));
+    for (const auto& [text, said] : std::map<std::string, std::string>{
+             {"[queue.1]\nack = true\n[queue.1]\nack = true",
+              "t.conf:2: key 'queue.1.ack' is set twice"},
+             {"[queues]\nack = true", "t.conf:2: unknown key 'queues.ack'"}}) {
+        try {
+            values(text);
+            ADD_FAILURE() << text;
+        } catch (const ConfigError& e) {
+            EXPECT_EQ(e.what(), said);
+        }
+    }
+}
+
 TEST(CliConfigFile, FaultsArePlaced) {
     EXPECT_EQ(fault("\nmax-recrod = 1\n"),
               "t.conf:2: unknown key 'max-recrod' (did you mean 'max-record'?)");

@@ -4,6 +4,7 @@
 #include "seautils/schema/json.hpp"
 #include "seautils/stream/hex.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -198,6 +199,18 @@ TEST(DcclLegacy, SchemasThatCannotWorkAreLocated) {
         << "longer than <size>";
     EXPECT_NE(refusal(with_layout("<bool><name>b</name></bool><bool><name>b</name></bool>")), "");
     EXPECT_NE(refusal(with_layout("<bool><name>&#1;</name></bool>")), "");
+    const auto sized = [](int bytes, int fields) {
+        std::string all;
+        for (int k = 0; k < fields; ++k) all += fmt::format("<bool><name>b{}</name></bool>", k);
+        return fmt::format(
+            "<message_set><message><name>M</name><id>5</id><size>{}</size>"
+            "<layout>{}</layout></message></message_set>",
+            bytes, all);
+    };
+    EXPECT_EQ(refusal(sized(65536, 10000)), "");
+    EXPECT_NE(refusal(sized(65537, 1)).find("1 to 65536"), std::string::npos);
+    EXPECT_NE(refusal(sized(65536, 10001)).find("more than 10000 fields"), std::string::npos);
+    EXPECT_NE(refusal(std::string((1U << 20) + 1, ' ')).find("1 MiB"), std::string::npos);
     EXPECT_NE(refusal(with_layout("<bool><name>\xff</name></bool>")), "");
 }
 

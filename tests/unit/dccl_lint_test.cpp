@@ -200,6 +200,9 @@ TEST(DcclLint, TypicalValuesCanBeSent) {
     codec.set_now(1'700'000'000);
     codec.decode(bytes, back, b.program().get());
     schema::write_json(back, json);
+    // Halfway between the bounds, rounded down: -7 + 48, 4 and 0.1.
+    EXPECT_NE(json.find("\"i\":41,\"f\":0.1,"), std::string::npos) << json;
+    EXPECT_NE(json.find("\"r\":[4,4,4]"), std::string::npos) << json;
     // A quarter of the repeats; half of the text; four bytes a number, eight the double.
     EXPECT_NE(json.find("\"s\":\"xxxxx\""), std::string::npos) << json;
     EXPECT_NE(json.find("\"sub\":[{\"b\":"), std::string::npos) << json;

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <fstream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace seautils::dccl {
@@ -85,6 +88,34 @@ TEST(DcclRawStream, WhereRefusingThrowsReadingEnds) {
         types, [](std::string_view) -> std::size_t { throw DataError("no"); },
         [](std::uint64_t, const std::string&) { throw std::runtime_error("stop"); });
     EXPECT_THROW(stream.take("abc", 0, true), std::runtime_error);
+}
+
+TEST(DcclRawStream, AMessageOfNoBytesDoesNotGoOnForEver) {
+    const std::string path = ::testing::TempDir() + "no_bytes.proto";
+    std::ofstream(path)
+        << "syntax = \"proto2\"; import \"dccl/option_extensions.proto\"; message M {"
+           " option (dccl.msg) = { omit_id: true max_bytes: 8 codec_version: 4 };"
+           " required uint32 a = 1 [(dccl.field) = { min: 3 max: 3 }]; }";
+    TypeSet types({path}, {}, {}, {});
+    schema::Values values;
+    int messages = 0;
+    const auto decode = [&](std::string_view bytes) {
+        if (++messages > 9) throw std::runtime_error("for ever");
+        return types.decode(bytes, values).bytes;
+    };
+    decode_record(types, "", decode, false);
+    decode_record(types, std::string(2, '\0'), decode, false);
+    EXPECT_EQ(messages, 2);
+    EXPECT_THROW(decode_record(types, "\xff", decode, false), DataError);
+    decode_record(types, "\xff", decode, true);
+    EXPECT_EQ(messages, 4);
+    std::vector<std::string> refused;
+    RawStream stream(types, decode,
+                     [&](std::uint64_t, const std::string& what) { refused.push_back(what); });
+    EXPECT_EQ(stream.take("\xff\xff", 0, true), 2U);
+    EXPECT_EQ(messages, 5);
+    EXPECT_EQ(refused, (std::vector<std::string>{"the message takes no bytes",
+                                                 "2 bytes skipped: no message begins there"}));
 }
 
 TEST(DcclRawStream, AnyBytesAreTakenToTheEnd) {

@@ -137,6 +137,17 @@ TEST(SchemaLayout, FieldsInAllAreBounded) {
     }
 }
 
+TEST(SchemaLayout, ValuesAndTextsOfARecordAreBounded) {
+    Values values;
+    values.reset(two());
+    const auto used = static_cast<std::uint32_t>(two().fields.size());
+    EXPECT_NO_THROW(values.add_elements(0, (1U << 18) - used));
+    EXPECT_THROW(values.add_elements(1, 1), DataError);
+    values.reset(two());
+    EXPECT_NO_THROW(values.add_text(0, 1U << 24));
+    EXPECT_THROW(values.add_text(1, 1), DataError);
+}
+
 TEST(SchemaLayout, LayoutsByHand) {
     LayoutSet set;
     Layout layout;

@@ -295,6 +295,12 @@ TEST(SchemaPool, LimitsOfFiles) {
     for (int k = 0; k < 1100; ++k)
         folder.add(fmt::format("many/f{}.proto", k), proto2(fmt::format("message M{} {{}}", k)));
     EXPECT_EQ(fault("many"), "78 many: more than 1000 .proto files");
+    std::string deep = "deep";
+    for (int k = 0; k < 16; ++k) deep += "/d";
+    folder.add(deep + "/m.proto", proto2("message M {}"));
+    EXPECT_EQ(fault("deep"), "");
+    folder.add(deep + "/d/n.proto", proto2("message N {}"));
+    EXPECT_EQ(fault("deep"), "78 " + deep + "/d: folders are nested deeper than 16");
     for (int k = 0; k < 1100; ++k) chain += fmt::format("import \"many/f{}.proto\";\n", k);
     folder.add("all.proto", proto2(chain));
     EXPECT_NE(fault("all.proto").find("1000 files"), std::string::npos) << fault("all.proto");

@@ -15,6 +15,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <new>
+#include <optional>
 
 namespace seautils::cli {
 
@@ -29,6 +30,7 @@ struct App::Impl {
     Settings settings;
     std::vector<std::string> input_formats, output_formats;
     std::vector<std::string> configs;
+    std::optional<ConfigSections> sections;
     std::string color = "auto";
     std::string time, clock = "system";
     bool quiet = false, verbose = false, print_config = false;
@@ -39,6 +41,7 @@ struct App::Impl {
     void add_stream();
     void parse(int argc, char** argv);
     void apply_config(int argc, char** argv);
+    bool set_in_section(const std::string& key, const std::vector<std::string>& values);
     void check_values();
     void check_clock();
     [[noreturn]] void config_fault(const std::string& what) const;
@@ -181,6 +184,8 @@ void App::output_formats(std::vector<std::string> names) {
         ->option_text("FMT");
 }
 
+void App::config_sections(ConfigSections sections) { impl_->sections = std::move(sections); }
+
 void App::Impl::parse(int argc, char** argv) {
     // CLI11 would take the word behind `--name=` for the value.
     for (int k = 1; k < argc && argv[k] != std::string_view("--"); ++k) {
@@ -202,9 +207,11 @@ void App::Impl::parse(int argc, char** argv) {
 /// Parses again, with what the files say of options that the command line leaves alone.
 void App::Impl::apply_config(int argc, char** argv) {
     if (configs.empty()) return;
-    const std::vector<ConfigOption> known = config_options(app);
+    std::vector<ConfigOption> known = config_options(app);
+    if (sections) known.push_back({sections->name + ".*", "", ""});
     std::vector<std::string> words;
     for (const auto& [key, values] : read_config(configs, known)) {
+        if (set_in_section(key, values)) continue;
         if (is_given(*app.get_option("--" + key))) continue;
         for (const std::string& value : values) {
             if (value.empty()) config_fault("option --" + key + ": the value is empty");
@@ -223,6 +230,20 @@ void App::Impl::apply_config(int argc, char** argv) {
     } catch (const Error& e) {
         config_fault(e.what());
     }
+}
+
+/// Whether the key is in a section: then its value is taken.
+bool App::Impl::set_in_section(const std::string& key, const std::vector<std::string>& values) {
+    if (!sections || !key.starts_with(sections->name + ".")) return false;
+    const std::size_t begin = sections->name.size() + 1;
+    const std::size_t end = key.rfind('.');
+    const std::string section = end < begin ? "" : key.substr(begin, end - begin);
+    try {
+        sections->set(section, key.substr(std::max(begin, end + 1)), values.front());
+    } catch (const ConfigError& e) {
+        throw ConfigError(config_place(configs, key) + e.what());
+    }
+    return true;
 }
 
 /// The command line alone was sound: `what` is the fault of a file.
@@ -318,7 +339,8 @@ int App::main(int argc, char** argv, const std::function<void(Io&)>& body) {
         try {
             a.parse(argc, argv);
             if (a.print_config)
-                return print(example_config(a.app.get_name(), config_options(a.app)));
+                return print(example_config(a.app.get_name(), config_options(a.app)) +
+                             (a.sections ? example_sections(*a.sections) : ""));
             a.check_values();
             a.apply_config(argc, argv);
         } catch (const CLI::CallForHelp&) {

@@ -1,6 +1,7 @@
 #ifndef SEAUTILS_CLI_APP_HPP
 #define SEAUTILS_CLI_APP_HPP
 
+#include "seautils/cli/config_file.hpp"
 #include "seautils/cli/io.hpp"
 
 #include <CLI/CLI.hpp>
@@ -42,6 +43,9 @@ public:
     /// The formats that -F and -f accept; the first is the default. Not called: no such option.
     void input_formats(std::vector<std::string> names);
     void output_formats(std::vector<std::string> names);
+
+    /// Takes sections of the configuration file, after the options.
+    void config_sections(ConfigSections sections);
 
     /// Parses, runs `body`, flushes and checks standard output, and returns the exit status:
     /// exceptions become a message and their status; 1 where a record was refused.

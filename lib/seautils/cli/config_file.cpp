@@ -55,6 +55,12 @@ po::options_description described(const std::vector<ConfigOption>& options) {
     return all;
 }
 
+/// Whether a key is this option's: its own, or of its sections.
+bool covers(const ConfigOption& option, const std::string& key) {
+    if (!option.key.ends_with(".*")) return key == option.key;
+    return key.starts_with(option.key.substr(0, option.key.size() - 1));
+}
+
 std::string file_text(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw Error(ExitCode::no_input, file + ": " + std::strerror(errno));
@@ -93,9 +99,10 @@ std::map<std::string, std::vector<std::string>> parse_config(
                           "a line that is neither 'key = value' nor '[section]'");
     }
     for (const ConfigOption& o : options) {
-        const auto found = values.find(o.key);
-        if (found == values.end() || o.repeatable || found->second.size() < 2) continue;
-        throw ConfigError(place(name, text, o.key) + "key " + quote(o.key) + " is set twice");
+        for (const auto& [key, all_values] : values) {
+            if (!covers(o, key) || o.repeatable || all_values.size() < 2) continue;
+            throw ConfigError(place(name, text, key) + "key " + quote(key) + " is set twice");
+        }
     }
     return values;
 }
@@ -125,6 +132,13 @@ std::string example_config(const std::string& tool, const std::vector<ConfigOpti
         text += fmt::format("\n# {}{}\n#{} = {}\n", o.description,
                             o.repeatable ? " (may stand on several lines)" : "", o.key, o.value);
     }
+    return text;
+}
+
+std::string example_sections(const ConfigSections& sections) {
+    std::string text = fmt::format("\n# {}\n#[{}]\n", sections.description, sections.name);
+    for (const ConfigOption& o : sections.keys)
+        text += fmt::format("\n# {}\n#  {} = {}\n", o.description, o.key, o.value);
     return text;
 }
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace seautils::cli {
 
 namespace {
@@ -131,6 +133,10 @@ void Io::inform(const std::string& what) const {
 std::int64_t Io::now_us() const { return clock.now_ns() / 1000; }
 
 void Io::refuse(const std::string& place, const std::string& what) { impl_->refuse(place, what); }
+
+bool Io::reads_stdin() const {
+    return files.empty() || std::find(files.begin(), files.end(), "-") != files.end();
+}
 
 std::uint64_t Io::refused() const { return impl_->refused; }
 

@@ -81,6 +81,9 @@ public:
     /// The clock's time in microseconds since 1970, UTC.
     std::int64_t now_us() const;
 
+    /// Whether records come from standard input.
+    bool reads_stdin() const;
+
     /// Records refused so far.
     std::uint64_t refused() const;
 

@@ -131,8 +131,8 @@ std::vector<Remark> lint(const Program& program) {
     std::vector<Remark> remarks;
     if (program.body_max_bits() > 0 && !time_in_header(program)) {
         remarks.push_back({"no-time-in-header", "",
-                           "encrypted bodies of equal headers share a key stream: put a time or a "
-                           "sequence number into the header"});
+                           "encrypted bodies of equal headers share a key stream: put a time, or a "
+                           "sequence number of 16 bits, into the header"});
     }
     for (const FieldReport& row : program.report()) {
         field_remarks(row, program.codec_version(), remarks);
@@ -142,6 +142,11 @@ std::vector<Remark> lint(const Program& program) {
 }
 
 namespace {
+
+/// The code of the value halfway between the bounds, as decode_integer and decode_float take it.
+std::uint64_t middle_code(const NumberCode& n) {
+    return static_cast<std::uint64_t>(std::floor((n.max - n.min) / n.resolution / 2));
+}
 
 /// Fills a message's fields with what is typical of them.
 class Typical {
@@ -193,7 +198,7 @@ private:
 
     void scalar(const Op& op, std::uint32_t slot) {
         schema::Slot& s = values_[slot];
-        const std::uint64_t middle = (std::uint64_t{1} << op.number.width) / 4;
+        const std::uint64_t middle = middle_code(op.number);
         switch (op.kind) {
             case OpKind::integer:
                 s.i = decode_integer(op.number, middle);

@@ -21,7 +21,7 @@ struct Remark {
 /// | kind | means |
 /// |---|---|
 /// | `wasted-codes` | a quarter or more of a number's codes stand for nothing: wider bounds are free, or slightly narrower ones save a bit |
-/// | `no-time-in-header` | encrypted bodies of equal headers share a key stream, and nothing in this header changes with time |
+/// | `no-time-in-header` | encrypted bodies of equal headers share a key stream, and this header has no time and no number of 16 bits or more that could count |
 /// | `lost-field` | marked in_head inside of a body message: codec versions 3 and 4 never send it |
 /// | `unreachable-bound` | a float's own bound is out of its range, because binary32 rounds it outwards |
 /// | `over-mtu` | the message may not fit into frames of 32, 64 or 256 bytes; names the field that passes the limit |

@@ -16,7 +16,9 @@ std::size_t RawStream::take(std::string_view bytes, std::uint64_t offset, bool e
     while (at < bytes.size()) {
         try {
             if (!lost_) {
-                at += decode_(bytes.substr(at));
+                const std::size_t taken = decode_(bytes.substr(at));
+                if (taken == 0) throw DataError("the message takes no bytes");
+                at += taken;
                 continue;
             }
             at += find(bytes.substr(at), ended);
@@ -40,6 +42,7 @@ std::size_t RawStream::find(std::string_view bytes, bool ended) {
         const std::string_view rest = bytes.substr(at);
         try {
             const TypeSet::Decoded decoded = types_.decode(rest, values_);
+            if (decoded.bytes == 0) continue;
             again_.clear();
             types_.encode(*decoded.type, values_, again_);
             lost_ = again_ != rest.substr(0, decoded.bytes);
@@ -61,6 +64,23 @@ void RawStream::lose(std::uint64_t offset, const std::string& what) {
 
 void RawStream::skipped(std::uint64_t end) {
     refuse_(lost_at_, counted(end - lost_at_, "byte") + " skipped: no message begins there");
+}
+
+void decode_record(const TypeSet& types, std::string_view record, const RawStream::Decode& decode,
+                   bool lenient) {
+    std::size_t taken = decode(record);
+    std::string_view rest = record.substr(taken);
+    while (!rest.empty() && !types.is_padding(rest)) {
+        try {
+            if (taken == 0) throw DataError("the message takes no bytes");
+            taken = decode(rest);
+            rest.remove_prefix(taken);
+        } catch (const DataError& e) {
+            if (lenient) return;
+            throw DataError(counted(rest.size(), "byte") +
+                            (rest.size() == 1 ? " is left over: " : " are left over: ") + e.what());
+        }
+    }
 }
 
 }  // namespace seautils::dccl

@@ -47,6 +47,13 @@ private:
     std::string again_;
 };
 
+/// Decodes each message of a record that may hold several back to back. Zeros behind the last one
+/// are no matter where they are padding (TypeSet::is_padding).
+/// @param lenient     other bytes that are left over are no matter either
+/// @throws DataError  no message begins there, or bytes are left over behind those that were decoded
+void decode_record(const TypeSet& types, std::string_view record, const RawStream::Decode& decode,
+                   bool lenient);
+
 }  // namespace seautils::dccl
 
 #endif  // SEAUTILS_DCCL_RAW_STREAM_HPP

@@ -1,3 +1,4 @@
+#include "seautils/core/text.hpp"
 #include "seautils/dccl/survey.hpp"
 
 #include <fmt/format.h>
@@ -102,11 +103,14 @@ std::string times(std::uint64_t bytes, std::uint64_t dccl) {
                        static_cast<double>(bytes) / static_cast<double>(dccl));
 }
 
+std::string bits(std::uint64_t least, std::uint64_t most) {
+    return least == most ? counted(most, "bit") : range(least, most) + " bits";
+}
+
 void append_totals(const Survey& s, std::string& out) {
-    const std::string head = range(s.head_min_bits, s.head_max_bits);
-    const std::string body = range(s.body_min_bits, s.body_max_bits);
     out +=
-        fmt::format("  identifier {} bits, header {} bits, body {} bits\n", s.id_bits, head, body);
+        fmt::format("  identifier {}, header {}, body {}\n", bits(s.id_bits, s.id_bits),
+                    bits(s.head_min_bits, s.head_max_bits), bits(s.body_min_bits, s.body_max_bits));
     if (!s.typical || s.typical->dccl == 0) return;
     out += fmt::format("  typical: {} bytes; in protobuf {}; in plain 32-bit numbers {}\n",
                        s.typical->dccl, times(s.typical->protobuf, s.typical->dccl),

@@ -93,7 +93,9 @@ void find_protos(const fs::path& folder, int depth, std::vector<std::string>& fo
     for (const fs::path& path : entries) {
         if (path.filename().string().starts_with('.')) continue;
         if (fs::is_directory(path, error)) {
-            if (depth < max_folder_depth) find_protos(path, depth + 1, found);
+            if (depth == max_folder_depth)
+                throw ConfigError(path.string() + ": folders are nested deeper than 16");
+            find_protos(path, depth + 1, found);
         } else if (path.extension() == ".proto" && !is_builtin_path(path.string())) {
             found.push_back(path.string());
         }

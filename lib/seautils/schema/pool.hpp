@@ -27,7 +27,7 @@ public:
     Pool(Pool&&) noexcept;
     Pool& operator=(Pool&&) noexcept;
 
-    /// Compiles a file, or each .proto file in a folder and below it, in order of name.
+    /// Compiles a file, or each .proto file in a folder and up to 16 folders below it, in order of name.
     /// A file that was compiled already is not compiled twice. A pipe is read to its end.
     /// @throws Error(no_input)  cannot be opened
     /// @throws ConfigError      `FILE:LINE:COLUMN: what`, one line, the first fault

@@ -1,1 +1,3 @@
-seautils_module(NAME stream SOURCES fifo.cpp hex.cpp input.cpp nmea.cpp output.cpp packet_socket.cpp pty.cpp DEPENDS core)
+seautils_module(NAME stream
+  SOURCES fifo.cpp hex.cpp input.cpp nmea.cpp output.cpp packet_socket.cpp pty.cpp whole_file.cpp
+  DEPENDS core)

@@ -1,0 +1,71 @@
+#include "seautils/stream/whole_file.hpp"
+
+#include "seautils/core/error.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace seautils::stream {
+
+namespace {
+
+constexpr mode_t file_mode = 0644;
+
+[[noreturn]] void fail(ExitCode code, const std::string& path) {
+    throw Error(code, path + ": " + std::strerror(errno));
+}
+
+struct File {
+    explicit File(int opened) : fd(opened) {}
+    ~File() {
+        if (fd >= 0) ::close(fd);
+    }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    int fd;
+};
+
+void write_all(const File& file, std::string_view bytes, const std::string& path) {
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(file.fd, bytes.data(), bytes.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail(ExitCode::io, path);
+        bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+}
+
+}  // namespace
+
+std::optional<std::string> read_whole_file(const std::string& path, std::size_t most) {
+    const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.fd < 0 && errno == ENOENT) return std::nullopt;
+    if (file.fd < 0) fail(ExitCode::no_input, path);
+    std::string bytes(most, '\0');
+    std::size_t used = 0;
+    while (used < most) {
+        const ssize_t n = ::read(file.fd, bytes.data() + used, most - used);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail(ExitCode::no_input, path);
+        if (n == 0) break;
+        used += static_cast<std::size_t>(n);
+    }
+    bytes.resize(used);
+    return bytes;
+}
+
+void replace_file(const std::string& path, std::string_view bytes) {
+    const std::string beside = path + ".new";
+    {
+        const File file(
+            ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, file_mode));
+        if (file.fd < 0) fail(ExitCode::cannot_create, beside);
+        write_all(file, bytes, beside);
+    }
+    if (::rename(beside.c_str(), path.c_str()) != 0) fail(ExitCode::cannot_create, path);
+}
+
+}  // namespace seautils::stream
