@@ -26,11 +26,13 @@ teardown() {
     [[ -z ${listeners:-} ]] || kill $listeners 2> /dev/null || true
 }
 
-# sail OPTION...: starts mm-sim, and waits until its modems have terminals.
+# sail OPTION...: starts mm-sim, and waits until its modems have terminals and, where time runs fast,
+# have booted.
 sail() {
     mm-sim --dir run "$@" sea.conf > truth 2> said 3>&- &
     sim=$!
     until_true test -e run/auv
+    sleep 0.2
 }
 
 # listen NODE: keeps what a modem says in NODE.out.
@@ -114,11 +116,11 @@ ack RECEIVED'
 @test "mm-sim: --raw records each line with its modem, in the order of time" {
     sail --warp 20 --raw
     listen ship
-    host ship '$CCCFQ,SRC*37' '$CCCFQ,SRC*00'
+    host ship '$CCCFQ,SRC*3A' '$CCCFQ,SRC*00'
     hears ship '$CAERR,'
     run_quiet jq -rs 'map(.raw | select(.node == "ship" and (.line | startswith("$CAREV") | not)) |
         .direction + " " + (.line | sub("[0-9]{6}"; "hhmmss")))[]' truth
-    assert_line 'OUT $CCCFQ,SRC*37'
+    assert_line 'OUT $CCCFQ,SRC*3A'
     assert_line 'IN $CACFG,SRC,1*33'
     assert_line 'OUT $CCCFQ,SRC*00'
     assert_line --partial 'IN $CAERR,hhmmss,NMEA,1,bad checksum*'
@@ -170,7 +172,9 @@ ack RECEIVED'
     host ship '$CCCFQ,SRC'
     hears ship '$CACFG'
     kill -TERM "$sim"
-    run -143 wait "$sim"
+    status=0
+    wait "$sim" || status=$?
+    assert_equal "$status" 143
     sim=''
     assert [ ! -e run/ship ]
     assert [ ! -L run/ship ]
@@ -196,8 +200,8 @@ ack RECEIVED'
     sail --warp 100
     exec 5<> run/ship
     listen auv
-    for ((k = 0; k < 12; k++)); do printf '$CCCFQ,TOP\r\n' >&5; done
-    sleep 0.5
+    for ((k = 0; k < 300; k++)); do printf '$CCCFQ,ALL\r\n' >&5; done # some 170 kB, at 192 kB/s
+    sleep 2
     host auv '$CCCFQ,SRC'
     hears auv '$CACFG,SRC,2'
     kill -TERM "$sim"
