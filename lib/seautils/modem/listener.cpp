@@ -66,10 +66,12 @@ bool Listener::take(const Sentence& s, std::uint64_t address, Moment now, Record
             return true;
         case code("CAMPA"): {
             const Ping ping = read_ping(s);
+            finish(out);
             add_heard(out, now.utc, ping.src, ping.dest);
             return true;
         }
         case code("CACMA"):
+            finish(out);
             if (const auto ping = read_extended_ping(s))
                 add_heard(out, now.utc, ping->src, ping->dest);
             return true;
@@ -194,6 +196,7 @@ void Listener::statistics(const Sentence& s, Moment now, Records& out) {
 
 void Listener::minipacket(const Mini& mini, Moment now, Records& out) {
     reset(out);
+    add_heard(out, now.utc, mini.src, mini.dest);
     begin(mini.src, mini.dest, now, out);
     reception_.kind = Kind::mini;
     reception_.mini = mini.value;
@@ -201,6 +204,7 @@ void Listener::minipacket(const Mini& mini, Moment now, Records& out) {
 
 void Listener::flexible(const FlexiblePacket& packet, Moment now, Records& out) {
     reset(out);
+    add_heard(out, now.utc, packet.src, packet.dest);
     begin(packet.src, packet.dest, now, out);
     reception_.rate = packet.rate;
     rate_known_ = true;
