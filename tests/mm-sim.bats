@@ -138,15 +138,13 @@ ack RECEIVED'
     assert_equal "$(ls run)" ''
 }
 
-@test "mm-sim: the same purely timed scenario gives the same records twice" {
+@test "mm-sim: where no host says anything the same scenario gives the same records, however fast" {
     printf 'reboot_s = 5, 9.5\n' >> sea.conf
     run_quiet mm-sim --dir run --warp 100 --duration 20 --raw sea.conf
     once=$output
-    run_quiet mm-sim --dir run --warp 50 --duration 20 --raw sea.conf
-    # the start is not the same to the microsecond: times since then are
-    strip() { jq -r '.raw.node + " " + (.raw.line | sub("[0-9]{6}"; "") | sub("[*].*"; ""))' <<< "$1"; }
-    assert_equal "$(strip "$output")" "$(strip "$once")"
-    assert_equal "$(strip "$once" | grep -c INIT)" 4
+    run_quiet mm-sim --dir run --warp 400 --duration 20 --raw sea.conf
+    assert_output "$once"
+    assert_equal "$(grep -c INIT <<< "$once")" 4
 }
 
 @test "mm-sim: run/clock is the clock of all; a clock that is given is taken" {
@@ -250,4 +248,34 @@ ack RECEIVED'
     cp "$SEAUTILS_ROOT"/examples/two-nodes/two-nodes.conf .
     run_quiet mm-sim --dir run --warp 1000 --duration 2 --raw two-nodes.conf
     assert_line --partial '"node":"vehicle"'
+}
+
+@test "mm-sim: both generations satisfy mm-serial, in both directions" {
+    command -v mm-serial > /dev/null || skip "mm-serial is not built"
+    sed -i 's/^id = 2/id = 2\nmodem = mm1/' sea.conf
+    sail --warp 10
+    export SEAUTILS_CLOCK
+    SEAUTILS_CLOCK=$(cat run/clock)
+    for node in ship auv; do
+        mkfifo "$node.in"
+        exec {hold}<> "$node.in"
+        id=1
+        [[ $node == ship ]] || id=2
+        mm-serial --id $id "run/$node" < "$node.in" > "$node.records" 2> "$node.said" 3>&- &
+        listeners+=" $!"
+    done
+    ready() { grep -q '"READY"' "$1.records"; }
+    until_true ready ship
+    until_true ready auv
+    send() { # FROM TO NUMBER MORE
+        echo "{\"time\":\"2024-05-01T20:45:00Z\",\"transmission\":{\"number\":$3,\"src\":$1,\"dest\":$2,$4}}"
+    }
+    send 1 2 7 '"rate":0,"ack_requested":true,"kind":"DATA","frame":["SGVsbG8="]' > ship.in
+    until_true grep -q '"ack":{"src":2,"dest":1,"transmission":7,"frame":\[0\]}' ship.records
+    until_true grep -q '"frame":\["SGVsbG8="\]' auv.records
+    send 2 1 8 '"rate":2,"ack_requested":true,"kind":"DATA","frame":["AQ==","Ag=="]' > auv.in
+    until_true grep -q '"ack":{"src":1,"dest":2,"transmission":8,"frame":\[1\]}' auv.records
+    until_true grep -q '"frame":\["AQ==","Ag=="\]' ship.records
+    send 1 2 9 '"kind":"PING"' > ship.in
+    until_true grep -q '"one_way_travel_time_s":0.2501' ship.records
 }

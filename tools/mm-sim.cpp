@@ -67,19 +67,19 @@ void make_folder(const std::string& folder) {
         throw Error(ExitCode::cannot_create, folder + ": " + std::strerror(errno));
 }
 
-/// The scenario's clock, of which all other tools take theirs, unless one was given.
-std::string choose_clock(cli::Io& io, const Options& options, sim::Time epoch) {
-    if (!io.clock.is_system()) {
-        if (io.clock.is_input())
-            throw Error(ExitCode::usage, "option --clock: 'input' makes no time pass");
-        if (options.warp != 0)
-            throw Error(ExitCode::usage, "option --warp: the clock is given already");
-        return io.clock.word();
+/// The clock of all tools: the one that was given, or a new one, at the scenario's epoch now.
+/// @return  when the simulation begins
+sim::Time choose_clock(cli::Io& io, const Options& options, sim::Time epoch) {
+    if (io.clock.is_system()) {
+        const double factor = options.warp == 0 ? 1 : options.warp;
+        io.clock = cli::Clock(format_warp({factor, since_boot_ns(), epoch / 1000}));
+        return epoch / 1000 * 1000;
     }
-    const double factor = options.warp == 0 ? 1 : options.warp;
-    const std::string word = format_warp({factor, since_boot_ns(), epoch / 1000});
-    io.clock = cli::Clock(word);
-    return word;
+    if (io.clock.is_input())
+        throw Error(ExitCode::usage, "option --clock: 'input' makes no time pass");
+    if (options.warp != 0)
+        throw Error(ExitCode::usage, "option --warp: the clock is given already");
+    return io.clock.now_ns();
 }
 
 /// A file that tells other programs the clock, while this one runs.
@@ -104,11 +104,10 @@ private:
 
 void simulate(cli::Io& io, const Options& options) {
     const sim::Scenario scenario = load(io.files.at(0), io.clock.now_ns());
-    const std::string word = choose_clock(io, options, scenario.epoch);
+    const sim::Time start = choose_clock(io, options, scenario.epoch);
     make_folder(options.folder);
-    const ClockFile clock_file(options.folder + "/clock", word);
-    const sim::Time start = io.clock.now_ns();
-    tools::MmSimBench bench(io, scenario, options.folder, options.raw);
+    const ClockFile clock_file(options.folder + "/clock", io.clock.word());
+    tools::MmSimBench bench(io, scenario, start, options.folder, options.raw);
     cli::Loop loop(io);
     bench.run(loop,
               options.duration_s == 0 ? sim::never : start + sim::nanoseconds(options.duration_s));
