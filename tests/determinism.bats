@@ -34,6 +34,7 @@ dccl-decode -s nav.proto -m Nav --time @1714564800 -f csv in.hex
 dccl-decode -s examples/legacy/dive.xml --time 2011-07-25T12:00:00Z examples/legacy/log.hex
 dccl-info -s schemas
 dccl-info -s schemas -s fleet --format ndjson
+mm-sim --dir run --warp 1000 --duration 30 --raw examples/two-nodes/two-nodes.conf
 END
 }
 
@@ -47,7 +48,7 @@ run_all() {
         # shellcheck disable=SC2086  # words of a command line
         "$@" $line > "$name.$k" 2> "$name.$k.said" < /dev/null || status=$?
         echo "$status" >> "$name.$k.said"
-    done < <(jobs_of_all)
+    done < <(jobs_of_all | grep -v "^${without:-$}")
 }
 
 # assert_same NAME NAME
@@ -57,7 +58,7 @@ assert_same() {
         k=$((k + 1))
         cmp "$1.$k" "$2.$k" || fail "differs: $line"
         diff "$1.$k.said" "$2.$k.said" || fail "says something else: $line"
-    done < <(jobs_of_all)
+    done < <(jobs_of_all | grep -v "^${without:-$}")
     assert [ "$k" -ge 8 ]
 }
 
@@ -98,6 +99,7 @@ assert_same() {
 @test "determinism: the clock has no say where --time stands in for it" {
     command -v faketime > /dev/null || skip "faketime is not installed"
     skip_if_sanitized "faketime is loaded before their library"
+    without='mm-sim ' # it does take time, of a clock that this fakes by halves
     run_all one command
     run_all later faketime '2031-02-03 04:05:06'
     assert_same one later
