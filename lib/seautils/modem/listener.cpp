@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 
 namespace seautils::modem {
@@ -209,14 +210,16 @@ void Listener::flexible(const FlexiblePacket& packet, Moment now, Records& out) 
     reception_.rate = packet.rate;
     rate_known_ = true;
     reception_.ack_requested = false;
-    if (packet.good)
-        occupy(0, packet.payload());
-    else
+    if (!packet.good)
         mark_bad(0);
+    else if (std::string payload = packet.payload(); !payload.empty())
+        occupy(0, std::move(payload));
 }
 
 void Listener::leg(Range& range, std::uint32_t transponder, std::optional<double> time_s) const {
-    if (time_s) range.leg.push_back({transponder, *time_s, *time_s * sound_speed_mps_});
+    if (!time_s) return;
+    const double range_m = std::round(*time_s * sound_speed_mps_ * 1000) / 1000;
+    range.leg.push_back({transponder, *time_s, range_m});
 }
 
 void Listener::ping_reply(const Ping& ping, Moment now, Records& out) {
