@@ -5,6 +5,7 @@ setup() {
     load test_helper
     cd "$BATS_TEST_TMPDIR" || return
     cp -r "$BATS_TEST_DIRNAME/data/schemas"/. "$SEAUTILS_ROOT/examples" "$SEAUTILS_ROOT/schemas" .
+    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson} .
     printf %s 'correct horse' > passphrase
     # messages of all kinds, some of them bad
     awk 'BEGIN {
@@ -34,6 +35,7 @@ dccl-decode -s nav.proto -m Nav --time @1714564800 -f csv in.hex
 dccl-decode -s examples/legacy/dive.xml --time 2011-07-25T12:00:00Z examples/legacy/log.hex
 dccl-info -s schemas
 dccl-info -s schemas -s fleet --format ndjson
+queue-sched -c queues.conf --clock input --explain --stats link.ndjson
 tdma-slot --slot src=1,length=15 --slot src=2,length=20,kind=ping,dest=1 --id 2 --from 2024-05-01T23:00:00Z --to 2024-05-02T01:00:00Z
 tdma-slot --subsets 3 --runs 5 --p-collide 0.7 --limit 1000 --seed 9
 END
