@@ -431,6 +431,17 @@ TEST(ModemDriver, CommandsThatWereNotUnderstoodAreSaidAgainAtOnce) {
     EXPECT_EQ(told.back(), "result #7 FAILED: the modem did not take CCCYC");
 }
 
+TEST(ModemDriver, CommandsThatTheModemRefusesAreNotSaidAgain) {
+    Rig rig;
+    rig.start();
+    rig.transmit(data_for(2, 6, false, {"a"}));
+    rig.written();
+    rig.says("CAERR,130357,CYC,3,field 4 is not 0 to 5");
+    EXPECT_EQ(rig.written(), Lines{});
+    EXPECT_EQ(rig.told().back(),
+              "result #7 FAILED: the modem refused it: 130357,CYC,3,field 4 is not 0 to 5");
+}
+
 TEST(ModemDriver, ARequestMeansThatTheCycleWasTaken) {
     Rig rig;
     rig.start();
