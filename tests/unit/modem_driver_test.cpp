@@ -84,7 +84,7 @@ TEST(ModemDriver, StartOfTheSecondGeneration) {
     EXPECT_EQ(rig.written(), (Lines{"CCTMQ,0"}));
 }
 
-TEST(ModemDriver, ClockIsSetWithinTheWindowWhateverTheTime) {
+TEST(ModemDriver, ClockIsSetWithinTheWindowWhateverTheTime) {  // pitfall 19
     for (int ms = 0; ms < 1000; ms += 37) {
         Rig rig;
         rig.pass(ms / 1000.0);
