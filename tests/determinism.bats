@@ -5,7 +5,7 @@ setup() {
     load test_helper
     cd "$BATS_TEST_TMPDIR" || return
     cp -r "$BATS_TEST_DIRNAME/data/schemas"/. "$SEAUTILS_ROOT/examples" "$SEAUTILS_ROOT/schemas" .
-    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson} .
+    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log} .
     printf %s 'correct horse' > passphrase
     # messages of all kinds, some of them bad
     awk 'BEGIN {
@@ -33,6 +33,7 @@ dccl-decode -s nav.proto -s fleet --time @1714564800 -F raw --resync -f text in.
 dccl-decode -s nav.proto -s fleet --time @1714564800 -F raw --resync in.hex
 dccl-decode -s nav.proto -m Nav --time @1714564800 -f csv in.hex
 dccl-decode -s examples/legacy/dive.xml --time 2011-07-25T12:00:00Z examples/legacy/log.hex
+mm-serial --replay --raw modem.log
 dccl-info -s schemas
 dccl-info -s schemas -s fleet --format ndjson
 queue-sched -c queues.conf --clock input --explain --stats link.ndjson

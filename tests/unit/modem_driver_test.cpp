@@ -84,7 +84,7 @@ TEST(ModemDriver, StartOfTheSecondGeneration) {
     EXPECT_EQ(rig.written(), (Lines{"CCTMQ,0"}));
 }
 
-TEST(ModemDriver, ClockIsSetWithinTheWindowWhateverTheTime) {
+TEST(ModemDriver, ClockIsSetWithinTheWindowWhateverTheTime) {  // pitfall 19
     for (int ms = 0; ms < 1000; ms += 37) {
         Rig rig;
         rig.pass(ms / 1000.0);
@@ -456,6 +456,17 @@ TEST(ModemDriver, CommandsThatWereNotUnderstoodAreSaidAgainAtOnce) {
     }
     const Lines told = rig.told();
     EXPECT_EQ(told.back(), "result #7 FAILED: the modem did not take CCCYC");
+}
+
+TEST(ModemDriver, CommandsThatTheModemRefusesAreNotSaidAgain) {
+    Rig rig;
+    rig.start();
+    rig.transmit(data_for(2, 6, false, {"a"}));
+    rig.written();
+    rig.says("CAERR,130357,CYC,3,field 4 is not 0 to 5");
+    EXPECT_EQ(rig.written(), Lines{});
+    EXPECT_EQ(rig.told().back(),
+              "result #7 FAILED: the modem refused it: 130357,CYC,3,field 4 is not 0 to 5");
 }
 
 TEST(ModemDriver, ARequestMeansThatTheCycleWasTaken) {
