@@ -32,8 +32,7 @@ constexpr std::int64_t clock_rest_ns =
     60 * second_ns;                                 ///< from setting a clock to setting it again
 constexpr std::int64_t clock_from_ns = 50'000'000;  ///< into a second: set the clock from here
 constexpr std::int64_t clock_to_ns = 100'000'000;   ///< to here
-constexpr std::size_t most_raw = 3600;              ///< bytes of a line that a record has room for
-constexpr std::size_t most_raw_noise = 700;         ///< where each becomes five: \\xNN
+
 constexpr double clock_error_s = 1;
 constexpr int clock_tries = 5;
 constexpr unsigned pad_before_build = 35490;  ///< firmware before this needs data of even length
@@ -122,9 +121,7 @@ void Driver::raw(Raw::Direction direction, std::string_view line, const std::str
     if (!options_.raw && fault.empty()) return;
     Raw r;
     r.direction = direction;
-    while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) line.remove_suffix(1);
-    r.line = printable(line, most_raw);
-    if (r.line.size() > most_raw + 4) r.line = printable(line, most_raw_noise);
+    r.line = raw_text(line);
     r.fault = fault;
     add(out_.records, now.utc, std::move(r));
 }

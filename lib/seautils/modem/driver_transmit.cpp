@@ -19,22 +19,6 @@ using Outcome = record::Result::Outcome;
 constexpr std::chrono::milliseconds statistics_wait{500};  ///< from CATXF to its CAXST
 constexpr std::chrono::seconds lbl_margin{5};              ///< beyond the modem's own waiting
 
-/// What CAXST means by its mode.
-std::string_view mode_text(std::uint32_t mode) {
-    switch (mode) {
-        case 1:
-            return "the power amplifier is hot";
-        case 2:
-            return "no external synchronization";
-        case 3:
-            return "transmitting is inhibited";
-        case 4:
-            return "the modem did not get its data in time";
-        default:
-            return "the modem reports a failed transmission";
-    }
-}
-
 /// Packet types of minipackets: of FSK and PSK.
 bool is_minipacket(const record::TransmitStatistics& s) {
     return s.packet_type == 2U || s.packet_type == 4U;
@@ -193,7 +177,7 @@ void Driver::on_transmit_statistics(const Sentence& s, Moment now) {
     Outgoing& o = *active_;
     o.statistics.push_back(stats);
     if (const std::uint32_t mode = stats.mode.value_or(0); mode != 0)
-        return end(Outcome::failed, std::string(mode_text(mode)), now);
+        return end(Outcome::failed, std::string(transmit_fault(mode)), now);
     const bool of_cycle = (o.has_frames() && is_minipacket(stats)) || o.announcing();
     if (of_cycle) return;
     o.told = true;

@@ -1,5 +1,7 @@
 #include "seautils/modem/line_reader.hpp"
 
+#include "seautils/core/text.hpp"
+
 namespace seautils::modem {
 
 std::string LineReader::read(std::string_view line, stream::Sentence& sentence) {
@@ -16,6 +18,14 @@ std::string LineReader::read(std::string_view line, stream::Sentence& sentence) 
     }
     if (writes_checksums_) return "the checksum is missing";
     return sentence.noise().empty() ? "" : "noise before a sentence without checksum";
+}
+
+std::string raw_text(std::string_view line) {
+    constexpr std::size_t most = 3600;       // a record takes 4096 bytes
+    constexpr std::size_t most_noise = 700;  // where each byte becomes five: \\xNN
+    line = line.substr(0, line.find_last_not_of("\r\n") + 1);
+    std::string text = printable(line, most);
+    return text.size() > most + 4 ? printable(line, most_noise) : text;
 }
 
 }  // namespace seautils::modem

@@ -20,6 +20,9 @@ private:
     bool writes_checksums_ = false;
 };
 
+/// A line without its end, printable, cut so that a record has room for it.
+std::string raw_text(std::string_view line);
+
 }  // namespace seautils::modem
 
 #endif  // SEAUTILS_MODEM_LINE_READER_HPP

@@ -66,10 +66,12 @@ bool Listener::take(const Sentence& s, std::uint64_t address, Moment now, Record
             return true;
         case code("CAMPA"): {
             const Ping ping = read_ping(s);
+            finish(out);
             add_heard(out, now.utc, ping.src, ping.dest);
             return true;
         }
         case code("CACMA"):
+            finish(out);
             if (const auto ping = read_extended_ping(s))
                 add_heard(out, now.utc, ping->src, ping->dest);
             return true;

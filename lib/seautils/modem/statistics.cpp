@@ -146,6 +146,21 @@ record::TransmitStatistics transmit_statistics(const stream::Sentence& caxst) {
     return s;
 }
 
+std::string_view transmit_fault(std::uint32_t mode) {
+    switch (mode) {
+        case 1:
+            return "the power amplifier is hot";
+        case 2:
+            return "no external synchronization";
+        case 3:
+            return "transmitting is inhibited";
+        case 4:
+            return "the modem did not get its data in time";
+        default:
+            return "the modem reports a failed transmission";
+    }
+}
+
 std::string compose(const ReceiveStatistics& s) {
     return fmt::format(
         "CACST,8,{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{"

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace seautils::modem {
 
@@ -26,6 +27,9 @@ record::ReceiveStatistics receive_statistics(const stream::Sentence& cacst,
 /// What CAXST says of a packet that was sent: with a version first from 6 on, without one before.
 /// @throws DataError
 record::TransmitStatistics transmit_statistics(const stream::Sentence& caxst);
+
+/// What CAXST means by a mode that is not 0, for people.
+std::string_view transmit_fault(std::uint32_t mode);
 
 /// The sentence's body for statistics: CACST of version 8, CAXST of version 7, as simulated modems
 /// write them; what is absent is an empty field.
