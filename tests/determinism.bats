@@ -34,6 +34,8 @@ dccl-decode -s nav.proto -m Nav --time @1714564800 -f csv in.hex
 dccl-decode -s examples/legacy/dive.xml --time 2011-07-25T12:00:00Z examples/legacy/log.hex
 dccl-info -s schemas
 dccl-info -s schemas -s fleet --format ndjson
+tdma-slot --slot src=1,length=15 --slot src=2,length=20,kind=ping,dest=1 --id 2 --from 2024-05-01T23:00:00Z --to 2024-05-02T01:00:00Z
+tdma-slot --subsets 3 --runs 5 --p-collide 0.7 --limit 1000 --seed 9
 END
 }
 

@@ -8,9 +8,11 @@
 #include <time.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 
 using namespace seautils;
@@ -24,6 +26,17 @@ struct Options {
     double duration_s = 0;
     bool raw = false;
 };
+
+/// What CLI11 asks of a value: what is wrong, or nothing.
+std::function<std::string(std::string)> in_range(unsigned most, const char* unit) {
+    return [most, unit](const std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        if (whole && value >= 0.001 && value <= most) return std::string();
+        return fmt::format("{} is outside 0.001 to {}{}", quote(text), most, unit);
+    };
+}
 
 std::string file_text(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
@@ -54,19 +67,19 @@ void make_folder(const std::string& folder) {
         throw Error(ExitCode::cannot_create, folder + ": " + std::strerror(errno));
 }
 
-/// The scenario's clock, of which all other tools take theirs, unless one was given.
-std::string choose_clock(cli::Io& io, const Options& options, sim::Time epoch) {
-    if (!io.clock.is_system()) {
-        if (io.clock.is_input())
-            throw Error(ExitCode::usage, "option --clock: 'input' makes no time pass");
-        if (options.warp != 0)
-            throw Error(ExitCode::usage, "option --warp: the clock is given already");
-        return io.clock.word();
+/// The clock of all tools: the one that was given, or a new one, at the scenario's epoch now.
+/// @return  when the simulation begins
+sim::Time choose_clock(cli::Io& io, const Options& options, sim::Time epoch) {
+    if (io.clock.is_system()) {
+        const double factor = options.warp == 0 ? 1 : options.warp;
+        io.clock = cli::Clock(format_warp({factor, since_boot_ns(), epoch / 1000}));
+        return epoch / 1000 * 1000;
     }
-    const double factor = options.warp == 0 ? 1 : options.warp;
-    const std::string word = format_warp({factor, since_boot_ns(), epoch / 1000});
-    io.clock = cli::Clock(word);
-    return word;
+    if (io.clock.is_input())
+        throw Error(ExitCode::usage, "option --clock: 'input' makes no time pass");
+    if (options.warp != 0)
+        throw Error(ExitCode::usage, "option --warp: the clock is given already");
+    return io.clock.now_ns();
 }
 
 /// A file that tells other programs the clock, while this one runs.
@@ -91,11 +104,10 @@ private:
 
 void simulate(cli::Io& io, const Options& options) {
     const sim::Scenario scenario = load(io.files.at(0), io.clock.now_ns());
-    const std::string word = choose_clock(io, options, scenario.epoch);
+    const sim::Time start = choose_clock(io, options, scenario.epoch);
     make_folder(options.folder);
-    const ClockFile clock_file(options.folder + "/clock", word);
-    const sim::Time start = io.clock.now_ns();
-    tools::MmSimBench bench(io, scenario, options.folder, options.raw);
+    const ClockFile clock_file(options.folder + "/clock", io.clock.word());
+    tools::MmSimBench bench(io, scenario, start, options.folder, options.raw);
     cli::Loop loop(io);
     bench.run(loop,
               options.duration_s == 0 ? sim::never : start + sim::nanoseconds(options.duration_s));
@@ -110,7 +122,7 @@ int main(int argc, char** argv) {
     cli::App app{"mm-sim",
                  "Simulate Micro-Modems on pseudo-terminals, sharing one simulated ocean.",
                  "  mm-sim --dir run --warp 10 two-nodes.conf > truth.ndjson\n",
-                 {.stream = false, .clock = true}};
+                 {.config = true, .stream = false, .clock = true}};
     app.output_formats(tools::record_formats);
     app.options()
         .add_option("--dir", options.folder, "Folder of the terminals' links (.)")
@@ -118,15 +130,16 @@ int main(int argc, char** argv) {
     app.options()
         .add_option("--warp", options.warp, "Run N times as fast, 0.001 to 1000 (1)")
         ->option_text("N")
-        ->check(CLI::Range(0.001, 1000.0));
+        ->check(in_range(1000, ""));
     app.options()
         .add_option("--duration", options.duration_s, "End after so much simulated time")
         ->option_text("SECONDS")
-        ->check(CLI::Range(0.001, 1e8));
+        ->check(in_range(100'000'000, " s"));
     app.options().add_flag("--raw", options.raw, "Write each line of the serial lines too");
     std::string scenario;
-    app.options().add_option("SCENARIO", scenario, "What is simulated")->required();
+    app.options().add_option("SCENARIO", scenario, "What is simulated");
     return app.main(argc, argv, [&](cli::Io& io) {
+        if (scenario.empty()) throw Error(ExitCode::usage, "SCENARIO is missing (try --help)");
         io.files = {scenario};
         io.input_format = io.format;
         simulate(io, options);

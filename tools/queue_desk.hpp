@@ -160,13 +160,17 @@ private:
             return write(to_record(std::move(*drop), own_id_));
         }
         newcomers_.push_back({std::move(message), came, client});
-        if (newcomers_.size() >= batch) commit();
+        if (newcomers_.size() >= batch) return commit();
+        if (!client) return;
+        is_asked_ = true;
+        set_alarm();
     }
 
     /// Stores the newcomers, queues them, and tells who sent them.
     void commit() {
         if (newcomers_.empty()) return;
         std::vector<Newcomer> all = std::exchange(newcomers_, {});
+        is_asked_ = false;
         std::vector<queue::Accepted> accepted;
         for (Newcomer& one : all)
             accepted.push_back(queue::accept(std::move(one.message), sequence_++, one.came));
@@ -334,11 +338,13 @@ private:
         if (!fault.empty()) notes_since_ns_ = now().steady_ns;
     }
 
-    /// The turn that waits comes first, then what the queues wait for, then the spool.
+    /// Whoever waits for an answer comes first: a turn, or an application, which may hang up
+    /// after its packet and is answered before that is seen. Then what the queues wait for, and
+    /// the spool.
     void set_alarm() {
         std::int64_t at_ns = scheduler_->next_event_ns();
         if (notes_since_ns_) at_ns = std::min(at_ns, *notes_since_ns_ + patience_ns);
-        if (turn_) at_ns = now().steady_ns;
+        if (turn_ || is_asked_) at_ns = now().steady_ns;
         if (at_ns == std::numeric_limits<std::int64_t>::max()) return loop_.wake_at_steady({});
         loop_.wake_at_steady(at_ns + steady_origin_ns());
     }
@@ -352,6 +358,7 @@ private:
     std::uint32_t own_id_ = 0;
     std::uint64_t sequence_ = 1;
     std::vector<Newcomer> newcomers_;
+    bool is_asked_ = false;  ///< some of them come from an application that waits
     std::optional<record::Slot> turn_;
     std::optional<std::int64_t> notes_since_ns_;  ///< since when the spool has something to be told
     bool failing_ = false;

@@ -11,6 +11,13 @@
 
 namespace seautils::tools {
 
+/// What a Micro-Modem's packet holds at most, by rate: frames, and bytes of each.
+struct PacketSize {
+    std::uint32_t frames, frame_bytes;
+};
+inline constexpr PacketSize packet_sizes[] = {{1, 32},  {3, 64},  {3, 64}, {2, 256},
+                                              {2, 256}, {8, 256}, {6, 32}};
+
 /// Writes turns as records, or as lines of text.
 class TdmaWriter {
 public:
@@ -211,6 +218,11 @@ inline record::Slot TdmaWriter::slot(const tdma::Turn& turn) const {
     slot.kind = static_cast<record::Kind>(turn.slot.kind);
     slot.start.ns = turn.start_ns;
     slot.end.ns = turn.end_ns;
+    if (turn.slot.kind == tdma::Kind::data) {
+        const PacketSize& size = packet_sizes[slot.rate];
+        slot.frames = size.frames;
+        slot.frame_bytes = size.frame_bytes;
+    }
     if (options_.id != 0) slot.initiate = initiates(turn);
     return slot;
 }

@@ -45,9 +45,9 @@ TEST(ModemReplay, RealSentences) {
                   "0,5,1,0,150,26.0,9.48,-100,-6.48,-01,0.01,51,25000,5000,0,-1,-1,00*4A",
                   "$CAXST,7,20250606,230103.000935,3,0,200,5000,25000,1,0,1,0,0,1,5,2,25000*53",
                   "$CATXF,2*56"}),
-        (Lines{"HEARD 1>2", "range 1>2 ping 0=0.0101s 15.1m", "reception 1>2 r0 [] mini 8107",
-               "HEARD 0>1", "range 0>1 ping 0=0.001997s 3.0m", "reception 0>1 r1 [ac4131] stats 1",
-               "result #0 SENT stats 1"}));
+        (Lines{"HEARD 1>2", "range 1>2 ping 0=0.0101s 15.2m", "HEARD 1>2",
+               "reception 1>2 r0 [] mini 8107", "HEARD 0>1", "range 0>1 ping 0=0.001997s 3.0m",
+               "HEARD 0>1", "reception 0>1 r1 [ac4131] stats 1", "result #0 SENT stats 1"}));
 }
 
 TEST(ModemReplay, GobysLog) {

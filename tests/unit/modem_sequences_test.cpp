@@ -237,7 +237,7 @@ TEST(ModemSequences, Minipacket) {
     rig.says_all({"CAMUC,1,2,0123", "CATXP,0", sent_mini});
     EXPECT_EQ(rig.told(), (Lines{"result #14 SENT stats 1"}));
     rig.says_all({"CARXP,1", "CAMUA,2,1,1fab"});
-    EXPECT_EQ(rig.told(), Lines{});
+    EXPECT_EQ(rig.told(), (Lines{"HEARD 2>1"}));
     rig.says(mini_stats);
     EXPECT_EQ(rig.told(), (Lines{"reception 2>1 r0 [] mini 8107 stats 1"}));
 }
@@ -253,9 +253,9 @@ TEST(ModemSequences, FlexibleData) {
                   "CAXST,7,20240501,120003.000935,3,0,200,5000,25000,1,1,2,0,0,1,5,3,25000"});
     EXPECT_EQ(rig.told(), (Lines{"result #7 SENT stats 1"}));
     rig.says_all({"CARXP,2", "CARDP,2,1,1,0,0,,1;2;0102;1;1;03", good_stats});
-    EXPECT_EQ(rig.told(), (Lines{"reception 2>1 r1 [010203] stats 1"}));
+    EXPECT_EQ(rig.told(), (Lines{"HEARD 2>1", "reception 2>1 r1 [010203] stats 1"}));
     rig.says_all({"CARXP,2", "CARDP,2,1,1,0,0,,1;2;0102;0;1;03", good_stats});
-    EXPECT_EQ(rig.told(), (Lines{"reception 2>1 r1 [] bad [0] stats 1"}));
+    EXPECT_EQ(rig.told(), (Lines{"HEARD 2>1", "reception 2>1 r1 [] bad [0] stats 1"}));
 }
 
 TEST(ModemSequences, FlexibleDataOfOddLengthIsPaddedForOldFirmware) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 
 namespace seautils::modem {
@@ -196,6 +197,7 @@ void Listener::statistics(const Sentence& s, Moment now, Records& out) {
 
 void Listener::minipacket(const Mini& mini, Moment now, Records& out) {
     reset(out);
+    add_heard(out, now.utc, mini.src, mini.dest);
     begin(mini.src, mini.dest, now, out);
     reception_.kind = Kind::mini;
     reception_.mini = mini.value;
@@ -203,18 +205,21 @@ void Listener::minipacket(const Mini& mini, Moment now, Records& out) {
 
 void Listener::flexible(const FlexiblePacket& packet, Moment now, Records& out) {
     reset(out);
+    add_heard(out, now.utc, packet.src, packet.dest);
     begin(packet.src, packet.dest, now, out);
     reception_.rate = packet.rate;
     rate_known_ = true;
     reception_.ack_requested = false;
-    if (packet.good)
-        occupy(0, packet.payload());
-    else
+    if (!packet.good)
         mark_bad(0);
+    else if (std::string payload = packet.payload(); !payload.empty())
+        occupy(0, std::move(payload));
 }
 
 void Listener::leg(Range& range, std::uint32_t transponder, std::optional<double> time_s) const {
-    if (time_s) range.leg.push_back({transponder, *time_s, *time_s * sound_speed_mps_});
+    if (!time_s) return;
+    const double range_m = std::round(*time_s * sound_speed_mps_ * 1000) / 1000;
+    range.leg.push_back({transponder, *time_s, range_m});
 }
 
 void Listener::ping_reply(const Ping& ping, Moment now, Records& out) {

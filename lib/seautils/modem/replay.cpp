@@ -167,6 +167,11 @@ void Replay::learn_time(const Sentence& s, std::uint64_t address) {
     if (address == code("CAXST")) {
         if (const auto sent = transmit_statistics(s).sent) ns = sent->ns;
     }
+    if (address == code("CARFP") || address == code("CACMA") || address == code("CACMR")) {
+        for (const std::size_t k : {1U, 2U}) {
+            if (const auto time = lines_.time_of(s[k])) ns = time->ns;
+        }
+    }
     if (ns) now_ = {{*ns}, *ns};
 }
 

@@ -27,9 +27,10 @@ struct LogLine {
 class LogLines {
 public:
     LogLine read(std::string_view line);
+    /// The time that a text begins with.
+    std::optional<record::UtcTime> time_of(std::string_view text);
 
 private:
-    std::optional<record::UtcTime> time_of(std::string_view text);
     std::optional<std::int64_t> date(std::string_view text);
 
     std::string date_;  ///< the last one: most lines are of the same day

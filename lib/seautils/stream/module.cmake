@@ -1,3 +1,4 @@
 seautils_module(NAME stream
-  SOURCES fifo.cpp hex.cpp input.cpp nmea.cpp output.cpp packet_socket.cpp pty.cpp whole_file.cpp
+  SOURCES fifo.cpp hex.cpp input.cpp nmea.cpp output.cpp packet_socket.cpp pty.cpp serial_line.cpp
+    whole_file.cpp
   DEPENDS core)
