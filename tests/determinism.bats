@@ -5,6 +5,7 @@ setup() {
     load test_helper
     cd "$BATS_TEST_TMPDIR" || return
     cp -r "$BATS_TEST_DIRNAME/data/schemas"/. "$SEAUTILS_ROOT/examples" "$SEAUTILS_ROOT/schemas" .
+    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log} .
     printf %s 'correct horse' > passphrase
     # messages of all kinds, some of them bad
     awk 'BEGIN {
@@ -32,9 +33,11 @@ dccl-decode -s nav.proto -s fleet --time @1714564800 -F raw --resync -f text in.
 dccl-decode -s nav.proto -s fleet --time @1714564800 -F raw --resync in.hex
 dccl-decode -s nav.proto -m Nav --time @1714564800 -f csv in.hex
 dccl-decode -s examples/legacy/dive.xml --time 2011-07-25T12:00:00Z examples/legacy/log.hex
+mm-serial --replay --raw modem.log
 dccl-info -s schemas
 dccl-info -s schemas -s fleet --format ndjson
 mm-sim --dir run --warp 1000 --duration 30 --raw examples/two-nodes/two-nodes.conf
+queue-sched -c queues.conf --clock input --explain --stats link.ndjson
 tdma-slot --slot src=1,length=15 --slot src=2,length=20,kind=ping,dest=1 --id 2 --from 2024-05-01T23:00:00Z --to 2024-05-02T01:00:00Z
 tdma-slot --subsets 3 --runs 5 --p-collide 0.7 --limit 1000 --seed 9
 END
