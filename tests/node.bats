@@ -20,6 +20,7 @@ setup() {
     # the sea's clock and terminals go with mm-sim, the sockets with queue-sched
     run -0 find kept '(' -type s -o -type l -o -name clock ')'
     assert_output ''
+    assert_nobody_in kept
 }
 
 @test "two nodes: ended by a signal, nothing stays behind" {
@@ -34,6 +35,7 @@ setup() {
     wait "$pid" || true
     run -0 find kept '(' -type s -o -type l -o -name clock ')'
     assert_output ''
+    assert_nobody_in kept
 }
 
 @test "two nodes: a wrong command line is 64" {
@@ -49,6 +51,14 @@ setup() {
     # in one piece, after the `set -m`
     run -0 sed -n "/^mm-sim /,/^ *'{.*Status\|^ *'{.*TRANSIT/p" made
     assert_equal "$(grep -v '^$\|^#' <<< "$output")" "$(grep -v '^$\|^#' shown)"
+}
+
+# assert_nobody_in FOLDER: no process works there
+assert_nobody_in() {
+    local folder all
+    folder=$(cd "$1" && pwd -P)
+    all=$(readlink /proc/[0-9]*/cwd || true)
+    run -1 grep -xF -- "$folder" <<< "$all"
 }
 
 # units_here: copies of the units that run the tools under test
