@@ -6,6 +6,12 @@ setup() {
     units=$SEAUTILS_ROOT/examples/systemd
     two=$SEAUTILS_ROOT/examples/two-nodes
     cd "$BATS_TEST_TMPDIR"
+    declare -gA started=()
+}
+
+teardown() {
+    ((${#started[@]} == 0)) || kill "${started[@]}" 2> /dev/null || true
+    wait 2> /dev/null || true
 }
 
 @test "two nodes: a message arrives at both ends, and nothing stays behind" {
@@ -127,4 +133,72 @@ units_here() {
         assert [ -r "$units/etc/$name" ]
     done
     assert [ -r "$units/etc/ttyUSB0.env" ]
+}
+
+# stage NODE STAGE: starts it as the units do, on FIFOs that somebody holds open
+stage() {
+    local id=1
+    [[ $1 != vehicle ]] || id=2
+    case $2 in
+        tdma-slot) exec tdma-slot -q --id "$id" -c "$two/slots.conf" 1<> "$1-slots.fifo" ;;
+        queue-sched)
+            exec queue-sched --id "$id" --spool "$1.db" --listen "$1.sock" --feedback "$1-queue.fifo" \
+                <> "$1-slots.fifo" 1<> "$1-transmissions.fifo"
+            ;;
+        mm-serial)
+            exec mm-serial -q --id "$id" --feedback "$1-queue.fifo" "sea/$1" \
+                <> "$1-transmissions.fifo" 1<> "$1-receptions.fifo"
+            ;;
+        dccl-decode)
+            exec dccl-decode -s "$SEAUTILS_ROOT/schemas/seautils" --records --duplicates 3600 \
+                <> "$1-receptions.fifo" >> "$1.received"
+            ;;
+    esac 2>> "$1.log" 3>&- &
+    started[$1-$2]=$!
+}
+
+# soon COMMAND...: it succeeds within 20 seconds
+soon() {
+    local k
+    for ((k = 0; k < 400; k++)); do
+        ! "$@" || return 0
+        sleep 0.05
+    done
+    cat ./*.log
+    return 1
+}
+
+@test "systemd: a stage that is killed takes nobody down, and what was accepted arrives" {
+    local node one sent=0
+    declare -A held
+    mm-sim --dir sea --warp 20 "$two/two-nodes.conf" > truth.ndjson 3>&- &
+    started[sea]=$!
+    soon test -e sea/vehicle
+    SEAUTILS_CLOCK=$(< sea/clock)
+    export SEAUTILS_CLOCK
+    for node in ship vehicle; do
+        for one in slots transmissions receptions; do
+            mkfifo "$node-$one.fifo"
+            exec {held[$node-$one]}<> "$node-$one.fifo"
+        done
+        for one in tdma-slot queue-sched mm-serial dccl-decode; do stage "$node" "$one"; done
+    done
+    soon test -S ship.sock
+    for one in '' tdma-slot queue-sched mm-serial dccl-decode; do
+        sent=$((sent + 1))
+        dccl-encode -s "$SEAUTILS_ROOT/schemas/seautils" -m seautils.DeployCommand --src 1 --dest 2 --ack --send ship.sock \
+            <<< '{"time_s":1714564800,"src":1,"dest":2,"command_id":'$sent'}'
+        if [[ $one ]]; then
+            for node in ship vehicle; do
+                kill -KILL "${started[$node-$one]}"
+                wait "${started[$node-$one]}" 2> /dev/null || true
+                stage "$node" "$one"
+            done
+            soon test -S ship.sock
+        fi
+        soon grep -qs "\"command_id\":$sent}" vehicle.received
+        for node in "${!started[@]}"; do
+            kill -0 "${started[$node]}" || { echo "$node is gone" && false; }
+        done
+    done
 }
