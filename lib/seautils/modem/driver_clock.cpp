@@ -16,10 +16,9 @@ using record::ModemEvent;
 using Kind = Command::Kind;
 
 constexpr std::int64_t second_ns = 1'000'000'000;
-constexpr std::int64_t clock_rest_ns =
-    60 * second_ns;                                 ///< from setting a clock to setting it again
-constexpr std::int64_t clock_from_ns = 50'000'000;  ///< into a second: set the clock from here
-constexpr std::int64_t clock_to_ns = 100'000'000;   ///< to here
+constexpr std::int64_t clock_rest_ns = 60 * second_ns;  ///< between settings
+constexpr std::int64_t clock_from_ns = 50'000'000;      ///< into a second: set the clock from here
+constexpr std::int64_t clock_to_ns = 100'000'000;       ///< to here
 constexpr double clock_error_s = 1;
 constexpr int clock_tries = 5;
 
