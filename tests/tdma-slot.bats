@@ -123,6 +123,21 @@ wait_for() {
 ["DATA",true,8,256]'
 }
 
+@test "tdma-slot: what fits into a packet is as the table of rates says" {
+    sed 's/^data  *5 .*/data 5 4 100 1 0 0 0/; /^data  *6/d' "$SEAUTILS_ROOT/schemas/seautils/micromodem.rates" > our.rates
+    run -0 bash -c "tdma-slot --slot src=1,rate=5 --from @0 --to @1 --rates our.rates | jq -c '.slot | [.frames, .frame_bytes]'"
+    assert_output '[4,100]'
+    run -64 --separate-stderr tdma-slot --slot src=1,rate=6 --from @0 --to @1 --rates our.rates
+    assert_regex "$stderr" '^tdma-slot: .*6'
+    run -64 --separate-stderr tdma-slot --mode auto --id 1 --rate 7
+    assert_regex "$stderr" '^tdma-slot: .*7'
+    run -66 --separate-stderr tdma-slot --slot src=1 --from @0 --to @1 --rates gone.rates
+    assert_equal "$stderr" 'tdma-slot: gone.rates: No such file or directory'
+    echo 'data 0 1 32' > short.rates
+    run -78 --separate-stderr tdma-slot --slot src=1 --from @0 --to @1 --rates short.rates
+    assert_regex "$stderr" '^tdma-slot: short.rates:1: '
+}
+
 @test "tdma-slot: a master asks everybody, and each slot is longer by the poll and its way (eq. 2.5)" {
     polled=(--mode polled --master 1 --slot src=1 --slot src=2,dest=1,rate=1 --slot length=5 --max-range 1500 --from @0 --to @29)
     tdma-slot "${polled[@]}" --id 1 > master
@@ -190,7 +205,7 @@ wait_for() {
 --cycle-init 61|--cycle-init: '61' is outside 0 to 60 s
 --rule best|--rule: rule 'best' is none of hash, goby1, eq, eqn, rot
 --coolness 0|--coolness: '0' is outside 1 to 1000000
---rate 7|--rate: '7' is outside 0 to 6
+--rate 15|--rate: '15' is outside 0 to 14
 --silence 0|--silence: '0' is outside 0.001 to 2592000 s
 --simulate 1,x|--simulate: address 'x' is outside 1 to 127
 --simulate 1,1|--simulate: address 1 is given twice
@@ -314,16 +329,18 @@ END
     echo 0 > offset
     in_background env LD_PRELOAD=./bent.so BENT_CLOCK=offset tdma-slot --id 1 --slot src=1,length=0.5
     wait_for bash -c '(($(wc -l < out) >= 2))'
-    for step in 86400 -3600; do
-        echo $step > offset.new && mv offset.new offset
-        : > err
-        wait_for grep -q 'the clock was set' err
+    steps=0
+    for offset in 86400 -3600; do
+        echo $offset > offset.new && mv offset.new offset
+        steps=$((steps + 1))
+        wait_for bash -c "((\$(grep -c 'the clock was set' err) >= $steps))"
         before=$(wc -l < out)
         wait_for bash -c "((\$(wc -l < out) >= $before + 3))"
     done
     kill $pid
     wait $pid || true
-    assert_regex "$(cat err)" '^tdma-slot: the clock was set 9[0-9]{4}\.[0-9]+ s back: it is [0-9T:.-]+Z, the next slot is at [0-9T:.-]+Z$'
+    assert_regex "$(head -1 err)" '^tdma-slot: the clock was set 86[34][0-9]{2}\.[0-9]+ s forward: it is [0-9T:.-]+Z, the next slot is at [0-9T:.-]+Z$'
+    assert_regex "$(sed -n 2p err)" '^tdma-slot: the clock was set (90000|89999)\.[0-9]+ s back: it is [0-9T:.-]+Z, the next slot is at [0-9T:.-]+Z$'
     # Hours and days lie between, and in each of them the slots are those of the grid.
     run bash -c "jq -r '.slot.start[:13]' out | uniq | wc -l"
     assert [ "$output" -ge 3 ]

@@ -1,16 +1,14 @@
 // mm-sim - simulated Micro-Modems on pseudo-terminals, sharing one simulated ocean
 #include "mm_sim_bench.hpp"
+#include "mm_sim_clock.hpp"
 
 #include "seautils/core/error.hpp"
-#include "seautils/core/warp.hpp"
-
-#include <sys/stat.h>
-#include <time.h>
 
 #include <cerrno>
-#include <cstdio>
+#include <charconv>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 
 using namespace seautils;
@@ -24,6 +22,17 @@ struct Options {
     double duration_s = 0;
     bool raw = false;
 };
+
+/// What CLI11 asks of a value: what is wrong, or nothing.
+std::function<std::string(std::string)> in_range(unsigned most, const char* unit) {
+    return [most, unit](const std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        if (whole && value >= 0.001 && value <= most) return std::string();
+        return fmt::format("{} is outside 0.001 to {}{}", quote(text), most, unit);
+    };
+}
 
 std::string file_text(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
@@ -43,59 +52,12 @@ sim::Scenario load(const std::string& file, sim::Time now) {
     return scenario;
 }
 
-std::int64_t since_boot_ns() {
-    timespec now{};
-    ::clock_gettime(CLOCK_BOOTTIME, &now);
-    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
-void make_folder(const std::string& folder) {
-    if (::mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST)
-        throw Error(ExitCode::cannot_create, folder + ": " + std::strerror(errno));
-}
-
-/// The scenario's clock, of which all other tools take theirs, unless one was given.
-std::string choose_clock(cli::Io& io, const Options& options, sim::Time epoch) {
-    if (!io.clock.is_system()) {
-        if (io.clock.is_input())
-            throw Error(ExitCode::usage, "option --clock: 'input' makes no time pass");
-        if (options.warp != 0)
-            throw Error(ExitCode::usage, "option --warp: the clock is given already");
-        return io.clock.word();
-    }
-    const double factor = options.warp == 0 ? 1 : options.warp;
-    const std::string word = format_warp({factor, since_boot_ns(), epoch / 1000});
-    io.clock = cli::Clock(word);
-    return word;
-}
-
-/// A file that tells other programs the clock, while this one runs.
-class ClockFile {
-public:
-    /// Under another name first: a reader finds all of it, or nothing.
-    ClockFile(std::string file, const std::string& word) : file_(std::move(file)) {
-        const std::string fresh = file_ + ".new";
-        std::ofstream out(fresh, std::ios::binary);
-        out << word << '\n';
-        out.close();
-        if (!out || std::rename(fresh.c_str(), file_.c_str()) != 0)
-            throw Error(ExitCode::cannot_create, file_ + ": " + std::strerror(errno));
-    }
-    ~ClockFile() { std::remove(file_.c_str()); }
-    ClockFile(const ClockFile&) = delete;
-    ClockFile& operator=(const ClockFile&) = delete;
-
-private:
-    std::string file_;
-};
-
 void simulate(cli::Io& io, const Options& options) {
     const sim::Scenario scenario = load(io.files.at(0), io.clock.now_ns());
-    const std::string word = choose_clock(io, options, scenario.epoch);
-    make_folder(options.folder);
-    const ClockFile clock_file(options.folder + "/clock", word);
-    const sim::Time start = io.clock.now_ns();
-    tools::MmSimBench bench(io, scenario, options.folder, options.raw);
+    const sim::Time start = tools::choose_clock(io, options.warp, scenario.epoch);
+    tools::make_folder(options.folder);
+    const tools::ClockFile clock_file(options.folder + "/clock", io.clock.word());
+    tools::MmSimBench bench(io, scenario, start, options.folder, options.raw);
     cli::Loop loop(io);
     bench.run(loop,
               options.duration_s == 0 ? sim::never : start + sim::nanoseconds(options.duration_s));
@@ -110,7 +72,7 @@ int main(int argc, char** argv) {
     cli::App app{"mm-sim",
                  "Simulate Micro-Modems on pseudo-terminals, sharing one simulated ocean.",
                  "  mm-sim --dir run --warp 10 two-nodes.conf > truth.ndjson\n",
-                 {.stream = false, .clock = true}};
+                 {.config = true, .stream = false, .clock = true}};
     app.output_formats(tools::record_formats);
     app.options()
         .add_option("--dir", options.folder, "Folder of the terminals' links (.)")
@@ -118,15 +80,16 @@ int main(int argc, char** argv) {
     app.options()
         .add_option("--warp", options.warp, "Run N times as fast, 0.001 to 1000 (1)")
         ->option_text("N")
-        ->check(CLI::Range(0.001, 1000.0));
+        ->check(in_range(1000, ""));
     app.options()
         .add_option("--duration", options.duration_s, "End after so much simulated time")
         ->option_text("SECONDS")
-        ->check(CLI::Range(0.001, 1e8));
+        ->check(in_range(100'000'000, " s"));
     app.options().add_flag("--raw", options.raw, "Write each line of the serial lines too");
     std::string scenario;
-    app.options().add_option("SCENARIO", scenario, "What is simulated")->required();
+    app.options().add_option("SCENARIO", scenario, "What is simulated");
     return app.main(argc, argv, [&](cli::Io& io) {
+        if (scenario.empty()) throw Error(ExitCode::usage, "SCENARIO is missing (try --help)");
         io.files = {scenario};
         io.input_format = io.format;
         simulate(io, options);

@@ -25,13 +25,15 @@ namespace seautils::tools {
 /// written as records.
 class MmSimBench : public sim::Sink {
 public:
-    MmSimBench(cli::Io& io, const sim::Scenario& scenario, const std::string& folder, bool raw)
+    /// @param start  when the modems are switched on
+    MmSimBench(cli::Io& io, const sim::Scenario& scenario, sim::Time start,
+               const std::string& folder, bool raw)
         : io_(io),
           records_(io),
           raw_(raw),
           scenario_(scenario),
           pending_(scenario.nodes.size()),
-          ocean_(scenario, *this, io.clock.now_ns()) {
+          ocean_(scenario, *this, start) {
         for (const sim::NodeSpec& node : scenario.nodes)
             lines_.push_back(std::make_unique<stream::Pty>(folder + "/" + node.name));
     }

@@ -26,11 +26,7 @@ int main(int argc, char** argv) {
     app.output_formats({"ndjson", "delimited", "text"});
     tdma.add(app.options());
     return app.main(argc, argv, [&](cli::Io& io) {
-        try {
-            if (tdma.simulates()) return tools::TdmaSimulation(io, tdma).run();
-            schedule(io, tdma);
-        } catch (const ConfigError& e) {
-            tools::usage(e.what());  // each value alone was sound
-        }
+        if (tdma.simulates()) return tools::TdmaSimulation(io, tdma).run();
+        schedule(io, tdma);
     });
 }

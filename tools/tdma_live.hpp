@@ -11,18 +11,11 @@
 
 namespace seautils::tools {
 
-/// What a Micro-Modem's packet holds at most, by rate: frames, and bytes of each.
-struct PacketSize {
-    std::uint32_t frames, frame_bytes;
-};
-inline constexpr PacketSize packet_sizes[] = {{1, 32},  {3, 64},  {3, 64}, {2, 256},
-                                              {2, 256}, {8, 256}, {6, 32}};
-
 /// Writes turns as records, or as lines of text.
 class TdmaWriter {
 public:
     TdmaWriter(cli::Io& io, const TdmaOptions& options)
-        : io_(io), options_(options), is_text_(io.format == "text") {
+        : io_(io), options_(options), rates_(options.rate_table()), is_text_(io.format == "text") {
         if (is_text_) io.format = "ndjson";  // RecordIo knows no other text
         records_.emplace(io);
     }
@@ -55,6 +48,7 @@ private:
 
     cli::Io& io_;
     const TdmaOptions& options_;
+    RateTable rates_;
     bool is_text_;
     std::optional<RecordIo> records_;
 };
@@ -219,7 +213,7 @@ inline record::Slot TdmaWriter::slot(const tdma::Turn& turn) const {
     slot.start.ns = turn.start_ns;
     slot.end.ns = turn.end_ns;
     if (turn.slot.kind == tdma::Kind::data) {
-        const PacketSize& size = packet_sizes[slot.rate];
+        const Rate& size = rates_.data(slot.rate);
         slot.frames = size.frames;
         slot.frame_bytes = size.frame_bytes;
     }
@@ -229,7 +223,8 @@ inline record::Slot TdmaWriter::slot(const tdma::Turn& turn) const {
 
 inline record::Transmission TdmaWriter::transmission(const tdma::Turn& turn) const {
     record::Transmission sent;
-    // Unique over restarts for 24 days, and never one of queue-sched's, which count from 1.
+    // Unique over restarts for 24 days, and none of queue-sched's, which count on from the seconds
+    // since 1970 at its start: they stay below until 2038.
     constexpr std::uint32_t ours = 0x8000'0000;
     sent.number = ours | static_cast<std::uint32_t>(turn.start_ns / 1'000'000 % ours);
     sent.src = static_cast<std::uint32_t>(turn.slot.src);

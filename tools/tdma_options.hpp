@@ -4,8 +4,10 @@
 
 #include "seautils/cli/app.hpp"
 #include "seautils/core/error.hpp"
+#include "seautils/core/rate_table.hpp"
 #include "seautils/core/text.hpp"
 #include "seautils/core/time.hpp"
+#include "seautils/stream/whole_file.hpp"
 #include "seautils/tdma/discovery.hpp"
 #include "seautils/tdma/report.hpp"
 
@@ -26,7 +28,7 @@ struct TdmaOptions {
     std::vector<std::string> slots;
     int id = 0;  ///< 0: not said
     std::string origin = "epoch", guard = "0", lead = "0";
-    std::string from, to;
+    std::string from, to, rates;
     // polled
     static constexpr double sound_speed_mps = 1500;
     int master = 0;
@@ -55,6 +57,8 @@ struct TdmaOptions {
 
     tdma::Excitation excitation() const { return {tdma::parse_rule(rule), coolness}; }
 
+    /// @throws Error(no_input), ConfigError
+    RateTable rate_table() const;
     tdma::Cycle cycle() const;
     tdma::DiscoveryOptions discovery() const;
     /// @throws Error(usage)  what is given does not go together
@@ -67,6 +71,8 @@ private:
     std::int64_t shortest_slot_ns(const std::vector<tdma::Slot>& parsed) const;
     std::vector<tdma::Slot> parsed_slots() const;
     void check_poll(const tdma::Slot& slot) const;
+    void check_rates() const;
+    void check_lengths() const;
 };
 
 [[noreturn]] inline void usage(const std::string& what) { throw Error(ExitCode::usage, what); }
@@ -145,6 +151,8 @@ inline void TdmaOptions::add_schedule(CLI::App& app) {
         ->check(takes(parse_utc_ns))
         ->option_text("TIME");
     app.add_option("--to", to, "Up to this time")->check(takes(parse_utc_ns))->option_text("TIME");
+    app.add_option("--rates", rates, "Take frames and bytes of the rates from FILE")
+        ->option_text("FILE");
     app.add_option("--master", master, "polled: modem ID of the master")
         ->check(count_within(1, tdma::max_modem_id))
         ->option_text("ID");
@@ -236,8 +244,42 @@ inline void TdmaOptions::check_schedule() const {
     const std::vector<tdma::Slot> parsed = parsed_slots();
     if (polled())
         for (const tdma::Slot& slot : parsed) check_poll(slot);
+    check_rates();
+    check_lengths();
     if (lead_ns() >= shortest_slot_ns(parsed))
         usage(fmt::format("--lead {} s is not less than the shortest slot", lead));
+}
+
+inline RateTable TdmaOptions::rate_table() const {
+    if (rates.empty()) return {};
+    constexpr std::size_t most_bytes = 1 << 20;
+    const auto text = stream::read_whole_file(rates, most_bytes);
+    if (!text) throw Error(ExitCode::no_input, rates + ": No such file or directory");
+    return RateTable::parse(*text, rates);
+}
+
+/// Each value alone was sound; together they may not be.
+inline void TdmaOptions::check_lengths() const {
+    try {
+        if (discovers())
+            tdma::Discovery(discovery(), 0);
+        else
+            cycle();
+    } catch (const ConfigError& e) {
+        usage(e.what());
+    }
+}
+
+/// What the modem does not have is found before it is needed.
+inline void TdmaOptions::check_rates() const {
+    const RateTable table = rate_table();
+    try {
+        if (discovers()) table.data(static_cast<unsigned>(rate));
+        for (const tdma::Slot& slot : parsed_slots())
+            if (slot.kind == tdma::Kind::data) table.data(static_cast<unsigned>(slot.rate));
+    } catch (const DataError& e) {
+        usage(e.what());
+    }
 }
 
 inline tdma::Cycle TdmaOptions::cycle() const {

@@ -245,6 +245,10 @@ TEST(ModemStatistics, OlderAndShorterForms) {
     EXPECT_EQ(timed_out.mode, 2U);
     EXPECT_EQ(timed_out.arrival, at("2025-06-06T23:01:23.3485Z"));
     EXPECT_FALSE(timed_out.rate);
+    for (const char* const bare : {"$CACST,2", "$CACST,6,2"})
+        EXPECT_EQ(receive_statistics(parsed(bare), {}).mode, 2U) << bare;
+    EXPECT_EQ(refusal("$CACST,6", [](const Sentence& s) { receive_statistics(s, {}); }),
+              "CACST of 1 field where there should be 2");
     const auto old =
         receive_statistics(parsed("$CACST,0,235959.5,0,1,2,3,4,5,6,7,8,9,0,1,2,0,1,1,0,"
                                   "100,9,8,10,-6,0,0.5"),

@@ -196,7 +196,7 @@ TEST(TdmaSlotText, WhatIsNoSlotIsNamed) {
     EXPECT_EQ(refusal("src=-1"), "src '-1' is outside 0 to 30");
     EXPECT_EQ(refusal("src=1x"), "src '1x' is outside 0 to 30");
     EXPECT_EQ(refusal("src=1 src=2"), "'src' is given twice");
-    EXPECT_EQ(refusal("src=1 rate=7"), "rate '7' is outside 0 to 6");
+    EXPECT_EQ(refusal("src=1 rate=15"), "rate '15' is outside 0 to 14");
     EXPECT_EQ(refusal("src=1 length=0"), "length '0' is outside 0.001 to 86400 s");
     EXPECT_EQ(refusal("src=1 length=86400.1"), "length '86400.1' is outside 0.001 to 86400 s");
     EXPECT_EQ(refusal("src=1 length=soon"),

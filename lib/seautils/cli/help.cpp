@@ -108,7 +108,8 @@ std::string help_text(const CLI::App& app, const std::string& examples) {
     std::string options;
     for (const CLI::Option* option : app.get_options()) {
         if (is_positional(*option))
-            files += " [" + option->get_name() + "]...";
+            files += option->get_items_expected_max() > 1 ? " [" + option->get_name() + "]..."
+                                                          : " " + option->get_name();
         else
             options += option_line(*option);
     }

@@ -103,9 +103,9 @@ std::string stamp(const std::optional<UtcTime>& time, std::string_view separator
 record::ReceiveStatistics receive_statistics(const stream::Sentence& cacst,
                                              std::optional<UtcTime> near) {
     const Fields fields(cacst);
-    fields.need(2);
     // Versions begin with 6; what stands first without one is the mode, 0 to 2.
     const std::size_t first = fields.whole(1, 99) >= 6 ? 2 : 1;
+    fields.need(first);
     Reader r(fields, first);
     ReceiveStatistics s;
     r.whole(s.mode, 2);

@@ -12,7 +12,8 @@ namespace seautils::modem {
 
 /// What CACST says of a packet that was received, in all of its forms: without a version (26 to 29
 /// fields, a time of day), and from version 6 on (a version first, a time with its date). Fields that
-/// a firmware does not have are absent; when the packet timed out (mode 2) that may be all but two.
+/// a firmware does not have are absent; when the packet timed out (mode 2) that may be all but the
+/// mode.
 ///
 /// @param near  the arrival's time of day is taken on the day that is nearest to this; absent: a
 ///              time of day alone gives no arrival

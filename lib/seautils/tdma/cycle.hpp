@@ -11,7 +11,7 @@
 namespace seautils::tdma {
 
 inline constexpr int max_modem_id = 30;
-inline constexpr int max_rate = 6;
+inline constexpr int max_rate = 14;  ///< that a table of rates may have (core/rate_table.hpp)
 inline constexpr int max_mini = 8191;
 inline constexpr std::size_t max_slots = 1000;
 inline constexpr std::int64_t min_slot_ns = second_ns / 1000;
