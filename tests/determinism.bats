@@ -5,6 +5,7 @@ setup() {
     load test_helper
     cd "$BATS_TEST_TMPDIR" || return
     cp -r "$BATS_TEST_DIRNAME/data/schemas"/. "$SEAUTILS_ROOT/examples" "$SEAUTILS_ROOT/schemas" .
+    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log} .
     printf %s 'correct horse' > passphrase
     # messages of all kinds, some of them bad
     awk 'BEGIN {
@@ -32,8 +33,11 @@ dccl-decode -s nav.proto -s fleet --time @1714564800 -F raw --resync -f text in.
 dccl-decode -s nav.proto -s fleet --time @1714564800 -F raw --resync in.hex
 dccl-decode -s nav.proto -m Nav --time @1714564800 -f csv in.hex
 dccl-decode -s examples/legacy/dive.xml --time 2011-07-25T12:00:00Z examples/legacy/log.hex
+mm-serial --replay --raw modem.log
 dccl-info -s schemas
 dccl-info -s schemas -s fleet --format ndjson
+mm-sim --dir run --warp 1000 --duration 30 --raw examples/two-nodes/two-nodes.conf
+queue-sched -c queues.conf --clock input --explain --stats link.ndjson
 tdma-slot --slot src=1,length=15 --slot src=2,length=20,kind=ping,dest=1 --id 2 --from 2024-05-01T23:00:00Z --to 2024-05-02T01:00:00Z
 tdma-slot --subsets 3 --runs 5 --p-collide 0.7 --limit 1000 --seed 9
 END
@@ -49,7 +53,7 @@ run_all() {
         # shellcheck disable=SC2086  # words of a command line
         "$@" $line > "$name.$k" 2> "$name.$k.said" < /dev/null || status=$?
         echo "$status" >> "$name.$k.said"
-    done < <(jobs_of_all)
+    done < <(jobs_of_all | grep -v "^${without:-$}")
 }
 
 # assert_same NAME NAME
@@ -59,7 +63,7 @@ assert_same() {
         k=$((k + 1))
         cmp "$1.$k" "$2.$k" || fail "differs: $line"
         diff "$1.$k.said" "$2.$k.said" || fail "says something else: $line"
-    done < <(jobs_of_all)
+    done < <(jobs_of_all | grep -v "^${without:-$}")
     assert [ "$k" -ge 8 ]
 }
 
@@ -100,6 +104,7 @@ assert_same() {
 @test "determinism: the clock has no say where --time stands in for it" {
     command -v faketime > /dev/null || skip "faketime is not installed"
     skip_if_sanitized "faketime is loaded before their library"
+    without='mm-sim ' # it does take time, of a clock that this fakes by halves
     run_all one command
     run_all later faketime '2031-02-03 04:05:06'
     assert_same one later

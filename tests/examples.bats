@@ -92,3 +92,37 @@ convert() { # ROW...: what to-ndjson.awk makes of rows of time, latitude, longit
     assert_line --index 2 --partial '"temperature":[20.95,21,21.2,21.4],"phase":"SURFACE","battery":85,"healthy":false'
     refute_line --index 2 --partial '"depth"'
 }
+
+@test "examples: a sea trial: what was commanded arrives, and nothing is lost without a reason" {
+    skip_if_sanitized "the simulation runs faster than they do"
+    run_quiet timeout 120 "$SEAUTILS_ROOT/examples/sea-trial/run" -w 60 -d 900 -k "$BATS_TEST_TMPDIR/trial"
+    assert_line --regexp '^Contact +[1-9]'
+    assert_line --regexp '^glider > ship '
+    refute_output --partial 'No such'
+    cd "$BATS_TEST_TMPDIR/trial" || return
+    # Whatever a queue says was delivered with an acknowledgement did arrive.
+    for node in auv glider; do
+        delivered=$(jq -s 'map(.queue | select(. and .id >= 100) | .delivered) | add' $node/queue.ndjson)
+        arrived=$(jq -s "map(select(.\"@from\" == {auv: 2, glider: 3}.$node and .\"@type\" != \"seautils.Status\")) | length" ship/received.ndjson)
+        ((delivered > 0 && arrived >= delivered))
+    done
+    # The logs are read by the other tools.
+    run_quiet bash -c "jq -r 'select(.raw) | \"\(.time) \(.raw.line)\"' ship/link.ndjson | mm-serial --replay | jq -c 'select(.reception)' | wc -l"
+    assert_equal "$output" "$(jq -c 'select(.reception)' ship/link.ndjson | wc -l)"
+    # Nothing that it started is left.
+    run pgrep -f "$BATS_TEST_TMPDIR/trial"
+    assert_output ''
+}
+
+@test "examples: what is wrong with the options of the sea trial" {
+    while IFS='|' read -r arguments what; do
+        # shellcheck disable=SC2086  # words
+        run -64 --separate-stderr "$SEAUTILS_ROOT/examples/sea-trial/run" $arguments
+        assert_equal "$stderr" "run: $what"
+    done << 'CASES'
+-w 0|warp '0' is outside 1 to 200
+-w fast|warp 'fast' is not a whole number
+-d 10|seconds '10' is outside 60 to 3600
+more|too many words (usage: run [-w WARP] [-d SECONDS] [-s SEED] [-k FOLDER])
+CASES
+}

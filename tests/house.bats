@@ -9,6 +9,8 @@ setup() {
     # code 13 of 6 bits. Id 10 is sent as 20.
     echo '{"time_s":1714564825,"depth_m":31.4,"leg":12}' > message
     echo 14d9a8003a010d > frame
+    echo '$CAMPA,1,2*5D' > sentence
+    echo '{"time":"1970-01-01T00:00:00Z","modem":{"event":"HEARD","src":1,"dest":2}}' > heard
 }
 
 # The tools that load schemas; those of the link have all this in their own suites.
@@ -32,6 +34,11 @@ job() {
             fault='leg takes 6 bits where 0 are left (message Nav)'
             ;;
         dccl-info) job=(dccl-info -s nav.proto) ;;
+        mm-serial)
+            job=(mm-serial --replay) in=sentence out=heard
+            bad='$CAMPA,1,2*5E'
+            fault='checksum 5E is not the 5D of its bytes'
+            ;;
         *) fail "house.bats has no job for $1" ;;
     esac
 }

@@ -23,6 +23,7 @@ END
 teardown() {
     [[ -z ${sim:-} ]] || kill "$sim" 2> /dev/null || true
     [[ -z ${sim:-} ]] || wait "$sim" 2> /dev/null || true
+    # shellcheck disable=SC2086  # one or several
     [[ -z ${listeners:-} ]] || kill $listeners 2> /dev/null || true
 }
 
@@ -75,9 +76,6 @@ hears() {
     run_quiet jq -c '.acoustic | [.src, .receiver, .packet, .outcome, .range_m, .air_time_s]' truth
     assert_output '[1,2,"ping","RECEIVED",375.15,0.9]
 [2,1,"reply","RECEIVED",375.15,0.9]'
-    run_quiet jq -r '.acoustic | select(.packet == "ping") | (.heard | sub("^.*:"; "") | sub("Z"; "") | tonumber) as $heard |
-        (.sent | sub("^.*:"; "") | sub("Z"; "") | tonumber) as $sent | ($heard - $sent + 60) % 60 * 10000 | round' truth
-    assert [ "$output" -ge 0 ]
     assert_equal "$(cat said)" ''
 }
 

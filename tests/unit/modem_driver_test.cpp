@@ -84,7 +84,7 @@ TEST(ModemDriver, StartOfTheSecondGeneration) {
     EXPECT_EQ(rig.written(), (Lines{"CCTMQ,0"}));
 }
 
-TEST(ModemDriver, ClockIsSetWithinTheWindowWhateverTheTime) {
+TEST(ModemDriver, ClockIsSetWithinTheWindowWhateverTheTime) {  // pitfall 19
     for (int ms = 0; ms < 1000; ms += 37) {
         Rig rig;
         rig.pass(ms / 1000.0);
@@ -358,6 +358,33 @@ TEST(ModemDriver, AcknowledgementsOfOthersAreNotOurs) {  // pitfall 11
     EXPECT_EQ(rig.told(), (Lines{"ack 2>1 #8 [0]"}));
 }
 
+TEST(ModemDriver, AnAcknowledgementThatComesTooLateIsSomebodyElses) {  // pitfall 11
+    Rig rig;
+    rig.start();
+    const auto send = [&](std::uint32_t number) {
+        rig.transmit(data_for(2, 1, true, {"a"}, number));
+        rig.says_all({"CACYC,0,1,2,1,1,1", "CADRQ,120000,1,2,1,64,1", "CATXP,9", "CATXF,9"});
+        rig.pass(0.6);
+        EXPECT_EQ(rig.told(), (Lines{fmt::format("result #{} SENT", number)}));
+    };
+    // Node 2 did not hear us. It acknowledges a frame of node 3's, and a Micro-Modem 1 says "for us".
+    send(7);
+    rig.says("CACYC,0,3,2,1,1,1");
+    rig.told();
+    rig.says("CAACK,2,1,1,1");
+    EXPECT_EQ(rig.told(), (Lines{"HEARD 2>1"}));
+    send(8);
+    rig.pass(12);  // the other's cycle was not heard, either
+    rig.told();
+    rig.says("CAACK,2,1,1,1");
+    EXPECT_EQ(rig.told(), (Lines{"HEARD 2>1"}));
+    send(9);
+    rig.pass(8);
+    rig.told();
+    rig.says("CAACK,2,1,1,1");
+    EXPECT_EQ(rig.told(), (Lines{"ack 2>1 #9 [0]"}));
+}
+
 TEST(ModemDriver, BroadcastIsNeverAcknowledged) {  // pitfall 12
     Rig rig;
     rig.start();
@@ -429,6 +456,17 @@ TEST(ModemDriver, CommandsThatWereNotUnderstoodAreSaidAgainAtOnce) {
     }
     const Lines told = rig.told();
     EXPECT_EQ(told.back(), "result #7 FAILED: the modem did not take CCCYC");
+}
+
+TEST(ModemDriver, CommandsThatTheModemRefusesAreNotSaidAgain) {
+    Rig rig;
+    rig.start();
+    rig.transmit(data_for(2, 6, false, {"a"}));
+    rig.written();
+    rig.says("CAERR,130357,CYC,3,field 4 is not 0 to 5");
+    EXPECT_EQ(rig.written(), Lines{});
+    EXPECT_EQ(rig.told().back(),
+              "result #7 FAILED: the modem refused it: 130357,CYC,3,field 4 is not 0 to 5");
 }
 
 TEST(ModemDriver, ARequestMeansThatTheCycleWasTaken) {

@@ -48,7 +48,7 @@ TEST(ModemSequences, UnicastAtRate0WithAcknowledgement) {  // Figure 2.14, the s
     EXPECT_EQ(rig.written(), Lines{});
 }
 
-TEST(ModemSequences, UnicastAtRate0Received) {  // Figure 2.14, the receiver
+TEST(ModemSequences, UnicastAtRate0Received) {  // Figure 2.14, the receiver; pitfall 16
     Options options;
     options.id = 2;
     Rig rig(options);
@@ -69,7 +69,7 @@ TEST(ModemSequences, UnicastAtRate0Received) {  // Figure 2.14, the receiver
 }
 
 TEST(ModemSequences, StatisticsWithoutTypesOrNone) {
-    // CST off, or older firmware: the next thing heard, or two seconds, end a reception.
+    // Pitfall 16: CST off, or older firmware: the next thing heard, or two seconds, end a reception.
     Options options;
     options.id = 2;
     Rig rig(options);
@@ -153,7 +153,7 @@ TEST(ModemSequences, TwoWayPing) {  // Figure 2.15
     EXPECT_EQ(other.told(), (Lines{"HEARD 1>2"}));
 }
 
-TEST(ModemSequences, PingsOfOldModemsWithoutStatistics) {
+TEST(ModemSequences, PingsOfOldModemsWithoutStatistics) {  // pitfall 20
     Rig rig;
     rig.start();
     record::Transmission t;
@@ -190,7 +190,7 @@ TEST(ModemSequences, RemusTransponders) {
               (Lines{"range 1>0 remus 0=0.9216s 1382.4m 1=0.592s 888.0m #11", "result #11 SENT"}));
 }
 
-TEST(ModemSequences, NarrowbandTransponders) {
+TEST(ModemSequences, NarrowbandTransponders) {  // pitfall 20: no times are no zeros
     Options options;
     options.lbl.kind = Lbl::Kind::narrowband;
     options.lbl.max_range_m = 1000;
@@ -223,7 +223,7 @@ TEST(ModemSequences, CodedTransponders) {
     EXPECT_EQ(rig.told(), (Lines{"range 1>0 coded 0=0.5s 750.0m #13", "result #13 SENT"}));
 }
 
-TEST(ModemSequences, Minipacket) {
+TEST(ModemSequences, Minipacket) {  // pitfall 21
     Rig rig;
     rig.start();
     record::Transmission t;
@@ -258,7 +258,7 @@ TEST(ModemSequences, FlexibleData) {
     EXPECT_EQ(rig.told(), (Lines{"HEARD 2>1", "reception 2>1 r1 [] bad [0] stats 1"}));
 }
 
-TEST(ModemSequences, FlexibleDataOfOddLengthIsPaddedForOldFirmware) {
+TEST(ModemSequences, FlexibleDataOfOddLengthIsPaddedForOldFirmware) {  // pitfall 14
     Options options;
     options.flexible = true;
     Rig rig(options);
@@ -310,7 +310,7 @@ TEST(ModemSequences, PolledByAnother) {
     EXPECT_EQ(rig.told(), (Lines{"ack 1>3 #7 [1]"}));
 }
 
-TEST(ModemSequences, PolledWithNothingToSay) {
+TEST(ModemSequences, PolledWithNothingToSay) {  // pitfall 17
     Options options;
     options.id = 3;
     Rig rig(options);

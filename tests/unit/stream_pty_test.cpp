@@ -68,6 +68,7 @@ TEST(StreamPty, ProgramsComeAndGo) {
     EXPECT_FALSE(pty.is_open());
     EXPECT_TRUE(pty.write("nobody listens"));
     for (int k = 0; k < 3; ++k) {
+        pty.look();  // as a loop does it that polls changes()
         Client client(folder.path() + "/modem");
         EXPECT_EQ(client.read(), "") << "nothing old";
         client.write("x");

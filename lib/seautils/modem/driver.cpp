@@ -376,7 +376,12 @@ void Driver::on_fault(const Fault& fault, Moment now) {
             end(Result::Outcome::failed, "the modem did not get its data in time", now);
         return;
     }
-    if (!fault.unknown_command) return;
+    const bool of_front = dialog_.outstanding() && !fault.module.empty() &&
+                          dialog_.front().body.substr(2).starts_with(fault.module);
+    if (of_front && dialog_.front().kind == Kind::transmission)
+        return end(Result::Outcome::failed, "the modem refused it: " + std::string(fault.text),
+                   now);
+    if (!fault.unknown_command && !of_front) return;
     if (dialog_.outstanding()) {
         // A modem that does not know one generation's way to set its clock is of the other.
         if (dialog_.front().kind == Kind::clock && options_.generation == Generation::unknown)

@@ -71,7 +71,8 @@ private:
     };
     struct Awaited {  ///< who has still to acknowledge what
         std::uint32_t number = 0, dest = 0;
-        unsigned frames = 0;  ///< bit k: frame k
+        unsigned frames = 0;             ///< bit k: frame k
+        std::int64_t until = INT64_MAX;  ///< on the steady clock, once the sound has left
     };
     struct Asked {  ///< whose answer means a range
         std::uint32_t number = 0, dest = 0;

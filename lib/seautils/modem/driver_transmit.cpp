@@ -80,7 +80,10 @@ void Driver::accepted(Moment now) {
 
 /// A cycle that we did not begin: somebody speaks, or somebody wants us to.
 void Driver::on_cycle(const Cycle& cycle, Moment now) {
-    if (cycle.src != options_.id) return listener_.cycle(cycle, now, out_.records);
+    if (cycle.src != options_.id) {
+        awaited_.reset();
+        return listener_.cycle(cycle, now, out_.records);
+    }
     if (active_) return;  // our own, heard once more
     const Rate& rate = options_.rates.data(cycle.rate);
     const unsigned frames = std::min(cycle.frames == 0 ? 1 : cycle.frames, rate.frames);
@@ -188,6 +191,7 @@ void Driver::on_transmit_statistics(const Sentence& s, Moment now) {
 /// A modem may report acknowledgements of others as its own: only what is awaited counts.
 void Driver::on_acknowledgement(const Acknowledgement& a, Moment now) {
     const unsigned bit = a.frame < 8 ? 1U << a.frame : 0;
+    if (awaited_ && now.steady_ns > awaited_->until) awaited_.reset();
     const bool ours = a.dest == options_.id && awaited_ && a.src == awaited_->dest;
     if (!ours || (awaited_->frames & bit) == 0)
         return add_heard(out_.records, now.utc, a.src, a.dest);
@@ -243,6 +247,7 @@ void Driver::end(Outcome outcome, std::string why, Moment now) {
     const Outgoing o = std::move(*active_);
     active_.reset();
     if (dialog_.outstanding(Command::Kind::transmission)) dialog_.pop();
+    if (awaited_) awaited_->until = now.after(options_.ack_wait);
     Result r;
     r.transmission = o.request.number;
     r.outcome = outcome;

@@ -49,6 +49,10 @@ struct Options {
     std::optional<unsigned> gateway;  ///< address behind a Hydroid gateway buoy
     /// For the data of a polled cycle; when it is over the modem is told that there is none.
     std::chrono::milliseconds poll_wait{2000};
+    /// From the end of a transmission, how long its acknowledgements may take. What comes later, or
+    /// after another's cycle was heard, acknowledges somebody else: a Micro-Modem 1 says of each
+    /// acknowledgement that it overhears that it is for itself.
+    std::chrono::milliseconds ack_wait{10000};
     /// Beyond its air time, until a transmission that does not end is given up.
     std::chrono::milliseconds busy_margin{12000};
     bool raw = false;  ///< a record of each line

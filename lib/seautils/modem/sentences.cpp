@@ -131,7 +131,7 @@ Complaint read_complaint(const Sentence& s) {
 }
 
 Fault read_fault(const Sentence& s) {
-    return {s[2] == "NMEA", s[1] == "DATA_TIMEOUT" || s[2] == "DATA_TIMEOUT", s.from(1)};
+    return {s[2] == "NMEA", s[1] == "DATA_TIMEOUT" || s[2] == "DATA_TIMEOUT", s[2], s.from(1)};
 }
 
 Ping read_ping(const Sentence& s) {

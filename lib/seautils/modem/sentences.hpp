@@ -85,7 +85,8 @@ Complaint read_complaint(const Sentence& s);
 struct Fault {
     bool unknown_command = false;  ///< MODULE is NMEA: the modem did not understand the last one
     bool data_timeout = false;
-    std::string_view text;  ///< all of it
+    std::string_view module;  ///< `NMEA`, or whose command was refused: `CYC`
+    std::string_view text;    ///< all of it
 };
 Fault read_fault(const Sentence& s);
 

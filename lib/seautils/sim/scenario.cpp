@@ -74,6 +74,9 @@ private:
     std::set<std::string, std::less<>> names_;  ///< of nodes and transponders
 };
 
+/// The name of a file as messages have it.
+std::string shown(const std::string& file) { return printable(file, 200); }
+
 Scenario Reader::run(std::string_view text) {
     if (text.size() > max_bytes) fault(name_ + ": longer than 1 MiB");
     while (!text.empty()) {
@@ -216,7 +219,7 @@ void Reader::water_keys(std::map<std::string_view, Setter>& keys) {
     keys["origin"] = [this](auto v) { set_origin(v); };
     keys["rates"] = [this](auto v) {
         const std::string file(v);
-        scenario_.rates = RateTable::parse(file_text(file), file);
+        scenario_.rates = RateTable::parse(file_text(file), shown(file));
     };
 }
 
@@ -291,9 +294,9 @@ void Reader::set_epoch(std::string_view value) {
 
 void Reader::set_tl(const std::string& file) {
     const std::string text = file_text(file);
-    Csv csv(file, text);
+    Csv csv(shown(file), text);
     const int range = csv.column({"range_m"}), loss = csv.column({"tl_db"});
-    if (range < 0 || loss < 0) fault(file + ": no columns 'range_m' and 'tl_db'");
+    if (range < 0 || loss < 0) fault(shown(file) + ": no columns 'range_m' and 'tl_db'");
     std::vector<std::pair<double, double>> points;
     std::vector<std::string_view> values;
     while (csv.next(values)) {
@@ -309,7 +312,7 @@ void Reader::set_tl(const std::string& file) {
     try {
         scenario_.water.tl_db = Curve(std::move(points));
     } catch (const ConfigError& e) {
-        fault(file + ": " + e.what());
+        fault(shown(file) + ": " + e.what());
     }
 }
 
@@ -362,7 +365,7 @@ Track Reader::placed(const Place& p) {
 Track Reader::tracked(const Place& p) {
     std::optional<Time> start;
     if (!p.track_is_utc) start = scenario_.epoch;
-    return read_track(p.track, file_text(p.track), start, origin_);
+    return read_track(shown(p.track), file_text(p.track), start, origin_);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace seautils::stream {
 
 /// A pseudo-terminal with a link that stays: what one side of a serial line would be, for programs
 /// that open the other as a device. It lives on when they close it, and they may open it again. Bytes
-/// for a device that nobody has opened, or that are left unread when the last one closes it, are
-/// lost, as on a serial line.
+/// for a device that nobody has opened are lost, as on a serial line; so are those that the last one
+/// to close it left unread, when look() is called before somebody opens it anew.
 class Pty {
 public:
     /// Opens a pair, raw, and makes `link` point to the device; a link of that name is replaced, any
