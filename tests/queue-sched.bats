@@ -499,3 +499,12 @@ END
     sched --explain --stats --spool q.db day > spooled
     cmp first spooled
 }
+
+@test "queue-sched: where a master begins, the data wait until the modem asks for them" {
+    { message 0 1 2 a && slot 1 1 64 '"initiate":false'; } > in
+    run_quiet short in
+    assert_output ''
+    slot 3 1 64 '"polled":true' >> in
+    run_quiet short in
+    assert_output '0>2! a'
+}

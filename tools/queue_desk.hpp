@@ -214,9 +214,11 @@ private:
         return why;
     }
 
-    /// A turn of this vehicle's for data is answered, by the newest one that waits.
+    /// A turn of this vehicle's for data, in which it may begin, is answered, by the newest one that
+    /// waits. Where a master begins, the modem asks for the data when it comes to that.
     bool begin(const record::Slot& slot) {
-        if (slot.src != own_id_ || slot.kind != record::Kind::data) return false;
+        const bool ours = slot.src == own_id_ && slot.initiate.value_or(true);
+        if (!ours || slot.kind != record::Kind::data) return false;
         check(slot);
         turn_ = slot;
         // Replayed, each turn is at its time; live, a newer one may be behind it already.
