@@ -36,7 +36,7 @@ $1 == "left" { left[$2] += $3; told[$2] = 1 }
 $1 == "slot" { if ($3 > last_slot[$2]) last_slot[$2] = $3 }
 $1 == "line" { if ($3 > last_line[$2]) last_line[$2] = $3 }
 $1 == "said" { ++n_said; said_node[n_said] = $2; said_at[n_said] = $3; said_hex[n_said] = $4 }
-$1 == "reboots" { reboots = $2 - 4 }  # each starts once
+$1 == "reboots" { reboots = $2; starts_of_modems = $3 }
 $1 == "trouble" {
     at = sea($2)
     ++troubles[$3]
@@ -121,9 +121,9 @@ END {
     printf ", recovered by mm-serial --replay %d, lost behind the modem of a killed mm-serial %d\n", recovered, lost_behind
     printf "delivered, but dropped as not acknowledged: %d; drops told again after a kill: %d; duplicates suppressed: %d\n",
         delivered_and_dropped, drops_again, total_heard - total_live
-    printf "kills %d (tdma-slot %d, queue-sched %d, mm-serial %d, dccl-decode %d), reboots %d, steps %d, stalls with a full FIFO %d, full disks %d\n",
+    printf "kills %d (tdma-slot %d, queue-sched %d, mm-serial %d, dccl-decode %d), reboots at sea %d and by mm-serial %d, steps %d, stalls with a full FIFO %d, full disks %d\n",
         troubles["kill"], kills_of["tdma-slot"], kills_of["queue-sched"], kills_of["mm-serial"], kills_of["dccl-decode"],
-        reboots, troubles["step"], troubles["stall"], troubles["full"]
+        reboots, starts_of_modems - reboots - 4, troubles["step"], troubles["stall"], troubles["full"]
     if (ended_full) printf "queue-sched ended on a full disk, and was started again: %d\n", ended_full
     printf "violations: %d\n", wrongs
     for (k = 1; k <= wrongs && k <= 50; ++k) print "  " violations[k]
