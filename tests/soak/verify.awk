@@ -6,8 +6,9 @@
 BEGIN {
     split(to_sim, clock, " ")
     answer_cs = 500  # a queue that takes longer to answer, stalls of half a second included, counts as hung
-    before_s = 3 + 0.3 * clock[1]  # around the death of an mm-serial: what it had read, what it was not yet there for
-    after_s = 2 + 1.0 * clock[1]
+    step_s = 10  # its clock, which drop records have their times from, may be so wrong
+    before_s = 1 + 0.1 * clock[1]  # around the death of an mm-serial: what it had not yet written, what it was not yet there for
+    after_s = 1 + 0.2 * clock[1]
 }
 
 function sea(cs) { return clock[3] + clock[1] * (cs / 100 - clock[2]) }
@@ -75,7 +76,7 @@ function fate(key, node,    k, found) {
 }
 function killed_between(node, from, to,    k) {
     for (k = 1; k <= kills[node, "queue-sched"]; ++k)
-        if (kill_at[node, "queue-sched", k] > from - before_s && kill_at[node, "queue-sched", k] < to + before_s) return 1
+        if (kill_at[node, "queue-sched", k] > from - step_s && kill_at[node, "queue-sched", k] < to + step_s) return 1
     return 0
 }
 
