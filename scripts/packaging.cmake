@@ -15,6 +15,12 @@ install(FILES ${PROJECT_BINARY_DIR}/packaging/seautilsConfig.cmake
 # The folders are found from the place of the .pc file, so that the installation can be moved.
 file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" to_prefix ${to_prefix})
+# What only tools need is left out; what depends on others stands before them.
+set(libraries ${SEAUTILS_MODULES})
+list(REMOVE_ITEM libraries cli)
+list(REVERSE libraries)
+list(TRANSFORM libraries PREPEND -lseautils_)
+list(JOIN libraries " " SEAUTILS_PC_LIBS)
 configure_file(scripts/seautils.pc.in packaging/seautils.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/packaging/seautils.pc
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
@@ -64,8 +70,10 @@ set(CPACK_DEBIAN_SEAUTILS_PACKAGE_NAME seautils)
 set(CPACK_DEBIAN_SEAUTILS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_SEAUTILS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_SEAUTILS_DESCRIPTION
-"Encode, decode and inspect messages of the Dynamic Compact Control Language
-(DCCL), with message schemas, manual pages, examples and shell completion.")
+"Messages of the Dynamic Compact Control Language (DCCL) encoded, decoded and
+inspected, and the acoustic link that they travel on: queues, turns to speak,
+WHOI Micro-Modems, and a simulation of both modems and sea. With message
+schemas, manual pages, examples and shell completion.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libseautils-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)

@@ -64,13 +64,17 @@ make_debs() {
     assert_works "$BATS_TEST_TMPDIR/moved"
 }
 
+@test "packaging: the table of rates lies beside the schemas" {
+    cmp "$BATS_TEST_DIRNAME/../schemas/seautils/micromodem.rates" "$usr/share/seautils/micromodem.rates"
+}
+
 @test "packaging: the schemas keep their folders, and nothing else is among them" {
     run find "$usr/share/seautils/schemas" -type f -printf '%P\n'
     assert_line dccl/option_extensions.proto
     assert_line dccl/protobuf/option_extensions.proto
     assert_line seautils/status.proto
     refute_line --regexp '[^o]$'
-    run_quiet diff -r --exclude='*.md' --exclude=CMakeLists.txt "$BATS_TEST_DIRNAME/../schemas" "$usr/share/seautils/schemas"
+    run_quiet diff -r --exclude='*.md' --exclude='*.rates' --exclude=CMakeLists.txt "$BATS_TEST_DIRNAME/../schemas" "$usr/share/seautils/schemas"
 }
 
 @test "packaging: each tool has its page, and the tour and the formats have theirs" {

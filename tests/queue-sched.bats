@@ -263,7 +263,7 @@ serve() {
     queue-sched --id 3 --listen q.sock "$@" < in >> got 2>> said 3>&- &
     pid=$!
     exec {hold}> in
-    for ((k = 0; k < 200; ++k)); do [[ -S q.sock ]] && return || sleep 0.02; done
+    for ((k = 0; k < 200; ++k)); do socat -u OPEN:/dev/null UNIX-CONNECT:q.sock,type=5 2> /dev/null && return || sleep 0.02; done
     fail "no socket: $(cat said)"
 }
 

@@ -1,15 +1,11 @@
 // mm-sim - simulated Micro-Modems on pseudo-terminals, sharing one simulated ocean
 #include "mm_sim_bench.hpp"
+#include "mm_sim_clock.hpp"
 
 #include "seautils/core/error.hpp"
-#include "seautils/core/warp.hpp"
-
-#include <sys/stat.h>
-#include <time.h>
 
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -56,57 +52,11 @@ sim::Scenario load(const std::string& file, sim::Time now) {
     return scenario;
 }
 
-std::int64_t since_boot_ns() {
-    timespec now{};
-    ::clock_gettime(CLOCK_BOOTTIME, &now);
-    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
-void make_folder(const std::string& folder) {
-    if (::mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST)
-        throw Error(ExitCode::cannot_create, folder + ": " + std::strerror(errno));
-}
-
-/// The clock of all tools: the one that was given, or a new one, at the scenario's epoch now.
-/// @return  when the simulation begins
-sim::Time choose_clock(cli::Io& io, const Options& options, sim::Time epoch) {
-    if (io.clock.is_system()) {
-        const double factor = options.warp == 0 ? 1 : options.warp;
-        io.clock = cli::Clock(format_warp({factor, since_boot_ns(), epoch / 1000}));
-        return epoch / 1000 * 1000;
-    }
-    if (io.clock.is_input())
-        throw Error(ExitCode::usage, "option --clock: 'input' makes no time pass");
-    if (options.warp != 0)
-        throw Error(ExitCode::usage, "option --warp: the clock is given already");
-    return io.clock.now_ns();
-}
-
-/// A file that tells other programs the clock, while this one runs.
-class ClockFile {
-public:
-    /// Under another name first: a reader finds all of it, or nothing.
-    ClockFile(std::string file, const std::string& word) : file_(std::move(file)) {
-        const std::string fresh = file_ + ".new";
-        std::ofstream out(fresh, std::ios::binary);
-        out << word << '\n';
-        out.close();
-        if (!out || std::rename(fresh.c_str(), file_.c_str()) != 0)
-            throw Error(ExitCode::cannot_create, file_ + ": " + std::strerror(errno));
-    }
-    ~ClockFile() { std::remove(file_.c_str()); }
-    ClockFile(const ClockFile&) = delete;
-    ClockFile& operator=(const ClockFile&) = delete;
-
-private:
-    std::string file_;
-};
-
 void simulate(cli::Io& io, const Options& options) {
     const sim::Scenario scenario = load(io.files.at(0), io.clock.now_ns());
-    const sim::Time start = choose_clock(io, options, scenario.epoch);
-    make_folder(options.folder);
-    const ClockFile clock_file(options.folder + "/clock", io.clock.word());
+    const sim::Time start = tools::choose_clock(io, options.warp, scenario.epoch);
+    tools::make_folder(options.folder);
+    const tools::ClockFile clock_file(options.folder + "/clock", io.clock.word());
     tools::MmSimBench bench(io, scenario, start, options.folder, options.raw);
     cli::Loop loop(io);
     bench.run(loop,

@@ -109,7 +109,9 @@ TEST(ParseDecimal, IsExact) {
         const auto value = parse_decimal(text, 9);
         RC_ASSERT(!value || *value >= 0);
     }));
+    EXPECT_EQ(parse_decimal("999999999999999999", 0), 999'999'999'999'999'999);
     EXPECT_FALSE(parse_decimal("9999999999999999999", 0));
+    EXPECT_FALSE(parse_decimal("99999999999999999999999999", 0));
     EXPECT_FALSE(parse_decimal("1000000000000", 9));
     EXPECT_FALSE(parse_decimal(".5", 1));
     EXPECT_FALSE(parse_decimal("5.", 1));

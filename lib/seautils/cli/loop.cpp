@@ -150,15 +150,17 @@ Loop::Impl::Impl(Io& the_io) : io(the_io) {
     }
 }
 
+/// The socket goes first: from the moment on that signals end the process again, nothing is left.
 Loop::Impl::~Impl() {
+    if (listener >= 0) {
+        ::close(listener);
+        ::unlink(listener_path.c_str());
+    }
     for (const int number : handled) ::signal(number, SIG_DFL);
     signal_pipe = -1;
     ::close(signal_read);
     ::close(signal_write);
     for (const Client& client : clients) ::close(client.fd);
-    if (listener < 0) return;
-    ::close(listener);
-    ::unlink(listener_path.c_str());
 }
 
 /// The end by a signal is the system's again when the signal comes twice.

@@ -35,9 +35,6 @@ public:
     /// Forgets what was announced and not heard yet, and finishes the rest.
     void reset(std::vector<record::Record>& out);
 
-    /// Whether the modem has a packet under way that has not ended.
-    bool busy() const { return begun_; }
-
 private:
     void frame(const ReceivedFrame& frame, Moment now, std::vector<record::Record>& out);
     void lost_frame(const Complaint& complaint, Moment now, std::vector<record::Record>& out);

@@ -57,9 +57,9 @@ std::optional<std::int64_t> parse_decimal(std::string_view text, unsigned decima
     std::int64_t value = 0;
     unsigned digits = 0;
     const auto take = [&](char c) {
-        if (!is_digit(c)) return false;
+        if (!is_digit(c) || ++digits > most_digits) return false;
         value = value * 10 + (c - '0');
-        return ++digits <= most_digits;
+        return true;
     };
     const std::size_t point = std::min(text.find('.'), text.size());
     const std::string_view whole = text.substr(0, point);
