@@ -6,8 +6,9 @@
 BEGIN {
     split(to_sim, clock, " ")
     answer_cs = 500  # a queue that takes longer to answer, stalls of half a second included, counts as hung
-    before_s = 3 + 0.3 * clock[1]  # around the death of an mm-serial: what it had read, what it was not yet there for
-    after_s = 2 + 1.0 * clock[1]
+    step_s = 10  # its clock, which drop records have their times from, may be so wrong
+    before_s = 1 + 0.1 * clock[1]  # around the death of an mm-serial: what it had not yet written, what it was not yet there for
+    after_s = 1 + 0.2 * clock[1]
 }
 
 function sea(cs) { return clock[3] + clock[1] * (cs / 100 - clock[2]) }
@@ -36,7 +37,7 @@ $1 == "left" { left[$2] += $3; told[$2] = 1 }
 $1 == "slot" { if ($3 > last_slot[$2]) last_slot[$2] = $3 }
 $1 == "line" { if ($3 > last_line[$2]) last_line[$2] = $3 }
 $1 == "said" { ++n_said; said_node[n_said] = $2; said_at[n_said] = $3; said_hex[n_said] = $4 }
-$1 == "reboots" { reboots = $2 - 4 }  # each starts once
+$1 == "reboots" { reboots = $2; starts_of_modems = $3 }
 $1 == "trouble" {
     at = sea($2)
     ++troubles[$3]
@@ -75,7 +76,7 @@ function fate(key, node,    k, found) {
 }
 function killed_between(node, from, to,    k) {
     for (k = 1; k <= kills[node, "queue-sched"]; ++k)
-        if (kill_at[node, "queue-sched", k] > from - before_s && kill_at[node, "queue-sched", k] < to + before_s) return 1
+        if (kill_at[node, "queue-sched", k] > from - step_s && kill_at[node, "queue-sched", k] < to + step_s) return 1
     return 0
 }
 
@@ -121,9 +122,9 @@ END {
     printf ", recovered by mm-serial --replay %d, lost behind the modem of a killed mm-serial %d\n", recovered, lost_behind
     printf "delivered, but dropped as not acknowledged: %d; drops told again after a kill: %d; duplicates suppressed: %d\n",
         delivered_and_dropped, drops_again, total_heard - total_live
-    printf "kills %d (tdma-slot %d, queue-sched %d, mm-serial %d, dccl-decode %d), reboots %d, steps %d, stalls with a full FIFO %d, full disks %d\n",
+    printf "kills %d (tdma-slot %d, queue-sched %d, mm-serial %d, dccl-decode %d), reboots at sea %d and by mm-serial %d, steps %d, stalls with a full FIFO %d, full disks %d\n",
         troubles["kill"], kills_of["tdma-slot"], kills_of["queue-sched"], kills_of["mm-serial"], kills_of["dccl-decode"],
-        reboots, troubles["step"], troubles["stall"], troubles["full"]
+        reboots, starts_of_modems - reboots - 4, troubles["step"], troubles["stall"], troubles["full"]
     if (ended_full) printf "queue-sched ended on a full disk, and was started again: %d\n", ended_full
     printf "violations: %d\n", wrongs
     for (k = 1; k <= wrongs && k <= 50; ++k) print "  " violations[k]
