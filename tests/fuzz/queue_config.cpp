@@ -24,7 +24,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto values =
             cli::parse_config("input.conf", std::string(fuzz::view(data, size)), options);
         queue::QueueConfigs configs;
-        for (const auto& [key, list] : values) {
+        for (const auto& entry : values) {
+            const std::string& key = entry.first;
+            const auto& list = entry.second;
             if (!key.starts_with("queue.")) continue;
             const std::size_t end = key.rfind('.');
             const std::string section = end > 6 ? key.substr(6, end - 6) : "";
