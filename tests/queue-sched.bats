@@ -499,3 +499,31 @@ END
     sched --explain --stats --spool q.db day > spooled
     cmp first spooled
 }
+
+@test "queue-sched: where a master begins, the data wait until the modem asks for them" {
+    { message 0 1 2 a && slot 1 1 64 '"initiate":false'; } > in
+    run_quiet short in
+    assert_output ''
+    slot 3 1 64 '"polled":true' >> in
+    run_quiet short in
+    assert_output '0>2! a'
+}
+
+@test "queue-sched: an output that nobody reads stops neither it nor those who hand messages over" {
+    mkfifo slots out
+    # Opened for reading, and never read.
+    exec {unread}<> out
+    exec {turns}<> slots
+    queue-sched --id 3 --listen q.sock --spool q.db slots > out 2> log 3>&- &
+    pid=$!
+    for ((k = 0; k < 100; k++)); do [[ -S q.sock ]] && break; sleep 0.05; done
+    # Slots of others, far more than a pipe holds; then our own.
+    for ((k = 0; k < 1500; k++)); do echo '{"slot":{"src":4,"kind":"DATA","end":"2030-01-01T00:00:00Z","frames":1,"frame_bytes":32}}'; done >&"$turns"
+    run -0 timeout 20 bash -c "echo '{\"message\":{\"id\":1,\"dest\":2,\"data\":\"YQ==\"}}' | socat -t 10 - UNIX-CONNECT:q.sock,type=5"
+    assert_output ok
+    assert_equal "$(cat log)" 'queue-sched: standard output is full: what reads it does not keep up'
+    kill "$pid"
+    for ((k = 0; k < 200; k++)); do kill -0 "$pid" 2> /dev/null || break; sleep 0.05; done
+    run ! kill -0 "$pid"
+    exec {unread}>&- {turns}>&-
+}

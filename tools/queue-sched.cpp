@@ -118,5 +118,6 @@ int main(int argc, char** argv) {
         loop.run();
         desk.finish();
         if (options.stats) desk.write_stats();
+        desk.leave();
     });
 }

@@ -40,7 +40,11 @@ public:
 
     /// From the inputs: what is not for the queues goes on to the next tool.
     void from_input(std::string_view bytes) {
-        if (!take(records_.read(bytes), {})) records_.pass_on(bytes);
+        if (take(records_.read(bytes), {})) return;
+        if (io_.clock.is_input())
+            records_.pass_on(bytes);
+        else
+            keeps_up(records_.offer_on(bytes));
     }
     /// From the modem, back: what is not for the queues ends here.
     void from_feedback(std::string_view bytes) { take(records_.read(bytes), {}); }
@@ -67,6 +71,7 @@ public:
     /// Makes safe what came: a batch is what came without a pause.
     void before_wait() {
         if (!scheduler_) return;
+        records_.write_kept();
         commit();
         set_alarm();
     }
@@ -80,6 +85,12 @@ public:
             waiting += s.queued - s.under_way;
         if (!spool_ && waiting > 0)
             io_.warn(counted(waiting, "message") + " still queued, and lost without --spool");
+    }
+
+    /// When all is said: a signal does not wait for a reader that does not come.
+    void leave() {
+        const std::size_t left = records_.leave(io_.ended_by == 0);
+        if (left > 0) io_.warn(counted(left, "record") + " not read by anybody");
     }
 
     void write_stats() {
@@ -157,7 +168,8 @@ private:
         const queue::Now came = now();
         if (std::optional<queue::Drop> drop = scheduler_->check(message, came)) {
             answer(client, "error: " + drop->why);
-            return write(to_record(std::move(*drop), own_id_));
+            write(to_record(std::move(*drop), own_id_));
+            return;
         }
         newcomers_.push_back({std::move(message), came, client});
         if (newcomers_.size() >= batch) return commit();
@@ -214,9 +226,11 @@ private:
         return why;
     }
 
-    /// A turn of this vehicle's for data is answered, by the newest one that waits.
+    /// A turn of this vehicle's for data, in which it may begin, is answered, by the newest one that
+    /// waits. Where a master begins, the modem asks for the data when it comes to that.
     bool begin(const record::Slot& slot) {
-        if (slot.src != own_id_ || slot.kind != record::Kind::data) return false;
+        const bool ours = slot.src == own_id_ && slot.initiate.value_or(true);
+        if (!ours || slot.kind != record::Kind::data) return false;
         check(slot);
         turn_ = slot;
         // Replayed, each turn is at its time; live, a newer one may be behind it already.
@@ -256,7 +270,17 @@ private:
         for (const queue::Carried& carried : packet->carried)
             note([&] { spool_->note_sent(carried, at); });
         try_spool([&] { spool_->reserve(packet->number + 1); });
-        write(to_record(std::move(*packet), slot));
+        const std::uint32_t number = packet->number;
+        if (write(to_record(std::move(*packet), slot))) return;
+        // Nobody takes it: its messages come back at once.
+        scheduler_->settle(number, queue::Outcome::busy, now());
+        settle_changes();
+    }
+
+    /// Says once that whoever reads our output does not keep up.
+    void keeps_up(bool taken) {
+        if (!taken && !stuck_) io_.warn("standard output is full: what reads it does not keep up");
+        stuck_ = !taken;
     }
 
     std::function<void(const queue::Contest&)> explainer(std::vector<queue::Contest>& contests) {
@@ -280,17 +304,30 @@ private:
         set_alarm();
     }
 
+    /// False: a transmission that nobody takes. What else there is to say waits for its reader.
     template <class Kind>
-    void write(Kind&& kind) {
+    bool write(Kind&& kind) {
         record::Record record{{io_.clock.now_ns()}, std::forward<Kind>(kind)};
         if constexpr (std::is_same_v<std::decay_t<Kind>, record::Drop>) {
             try {
-                return records_.write(record);
+                return emit(record);
             } catch (const DataError&) {  // with its data it is too long
                 std::get<record::Drop>(record.kind).data.clear();
             }
         }
-        records_.write(record);
+        return emit(record);
+    }
+
+    /// Replayed, the reader is waited for; live it is not: the queues go on without it.
+    bool emit(const record::Record& record) {
+        if (io_.clock.is_input()) {
+            records_.write(record);
+            return true;
+        }
+        const bool may_be_late = record.as<record::Transmission>() == nullptr;
+        const bool taken = may_be_late ? records_.keep(record) : records_.offer(record);
+        keeps_up(taken && records_.kept() == 0);
+        return taken;
     }
 
     /// With as many candidates as fit into a record, the best ones.
@@ -300,7 +337,8 @@ private:
             const auto kept = static_cast<std::uint32_t>(contest.candidate.size());
             if (kept < all) contest.left_out = all - kept;
             try {
-                return write(contest);
+                write(contest);
+                return;
             } catch (const DataError&) {
                 contest.candidate.resize(std::min<std::size_t>(kept * 3 / 4, 60));
             }
@@ -361,6 +399,7 @@ private:
     bool is_asked_ = false;  ///< some of them come from an application that waits
     std::optional<record::Slot> turn_;
     std::optional<std::int64_t> notes_since_ns_;  ///< since when the spool has something to be told
+    bool stuck_ = false;
     bool failing_ = false;
 };
 

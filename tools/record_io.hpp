@@ -5,10 +5,12 @@
 #include "seautils/cli/app.hpp"
 #include "seautils/core/error.hpp"
 #include "seautils/record/codec.hpp"
+#include "seautils/stream/fifo.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,6 +69,41 @@ public:
         sent();
     }
 
+    /// For tools that must never wait for the reader of their pipe. False: it has no room, and
+    /// nothing was written.
+    /// @throws DataError  larger than 4096 bytes
+    bool offer(const record::Record& record) {
+        packet_.clear();
+        codec_.write(record, out_, packet_);
+        return offer_packet();
+    }
+    bool offer_on(std::string_view bytes) {
+        packet_.clear();
+        codec_.convert(bytes, in_, out_, packet_);
+        return offer_packet();
+    }
+    /// Writes the record as soon as there is room; false: too many wait already, it is lost.
+    bool keep(const record::Record& record) {
+        if (offer(record)) return true;
+        if (kept_.size() >= most_kept) return false;
+        kept_.push_back(packet_);
+        return true;
+    }
+    /// Writes what was kept, as far as there is room.
+    void write_kept() {
+        while (!kept_.empty() && stream::try_write(STDOUT_FILENO, kept_.front())) kept_.pop_front();
+    }
+    std::size_t kept() const { return kept_.size(); }
+    /// At the end: waits for the reader of what was kept, or leaves it.
+    /// @return how many records are left
+    std::size_t leave(bool may_wait) {
+        write_kept();
+        if (!may_wait) return kept_.size();
+        for (const std::string& packet : kept_) io_.out.write(packet);
+        kept_.clear();
+        return 0;
+    }
+
     record::Codec& codec() { return codec_; }
     record::Form out_form() const { return out_; }
 
@@ -77,11 +114,24 @@ private:
     }
     void sent() { is_pipe_ ? io_.out.flush() : io_.out.commit(); }
 
+    bool offer_packet() {
+        if (!is_pipe_) {
+            io_.out.write(packet_);
+            return true;
+        }
+        write_kept();
+        return kept_.empty() && stream::try_write(STDOUT_FILENO, packet_);
+    }
+
+    static constexpr std::size_t most_kept = 10000;
+
     cli::Io& io_;
     record::Form in_, out_;
     bool is_pipe_ = false;
     record::Codec codec_;
     record::Record record_;
+    std::string packet_;
+    std::deque<std::string> kept_;
 };
 
 }  // namespace seautils::tools
