@@ -335,16 +335,16 @@ trap '' XFSZ
 ulimit -f 40
 exec queue-sched "$@"
 END
-    { for ((k = 0; k < 40; ++k)); do
-        message $k 1 2 "$(printf %0200d $k)"
+    { for ((k = 0; k < 200; ++k)); do
+        message $k 1 2 "$(printf %0250d $k)"
         slot $k 1 1
-    done && slot 50 8 256; } > in
-    run bash run --id 3 --clock input --spool q.db -c <(printf '%s\n' '[queue]' 'ack = false') in
+    done && slot 250 8 256; } > in
+    run bash run --id 3 --clock input --spool q.db -c <(printf '%s\n' '[queue]' 'ack = false' 'max_queue = 1000') in
     assert_equal "$status" 0
     assert_equal "$(grep -c 'queue-sched: spool' <<< "$output")" 1
     refused=$(grep -c '"REFUSED","why":"not stored: spool' <<< "$output")
     assert [ "$refused" -gt 0 ]
-    assert [ "$refused" -lt 40 ]
+    assert [ "$refused" -lt 200 ]
     run grep -c '"transmission"' <<< "$output"
     assert_output 1
 }

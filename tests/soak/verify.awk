@@ -18,6 +18,7 @@ $1 == "offered" {
     key = $2 ":" $3
     offered[key] = 1
     ++answers[$6]
+    in_vain[$2] = $6 == 0 ? 0 : in_vain[$2] + 1
     if ($6 == 0) { accepted[key] = $4; order[++n_accepted] = key }
     if ($6 == 75 || $8 - $7 > answer_cs) wrong("queue-sched of node " $2 " took " ($8 - $7) / 100 " s to answer message " key)
 }
@@ -109,6 +110,7 @@ END {
         total_heard += n_heard[node]; total_live += n_live[node]
         if (n_live[node] != n_afresh[node]) wrong("node " node " has " n_live[node] + 0 " messages where its log holds " n_afresh[node] + 0)
         if (!told[node]) wrong("queue-sched of node " node " told nothing of its queues at the end")
+        if (in_vain[node] > 30) wrong("queue-sched of node " node " accepted none of the last " in_vain[node] " messages")
         if (left[node] > 0) wrong("node " node ": " left[node] " messages are still queued after the drain")
         if (last_slot[node] < peace + 120) wrong("node " node ": no slot in the peace at the end")
         if (last_line[node] < peace + 120) wrong("node " node ": no line of the modem in the peace at the end")

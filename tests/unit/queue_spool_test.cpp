@@ -296,6 +296,27 @@ TEST(Spool, AFullDiskRefusesAndIsUsedOnWhenThereIsRoom) {
     EXPECT_EQ(all.back(), "after");
 }
 
+// Messages come and go; the log of all that may not fill the disk for good, nor over kills.
+TEST(Spool, ItsOwnLogDoesNotFillASmallDisk) {
+    const TempFolder folder;
+    const std::string path = folder.file("q.db");
+    for (std::uint64_t run = 0; run < 3; ++run) {
+        EXPECT_EQ(in_child([&] {
+                      ::signal(SIGXFSZ, SIG_IGN);
+                      const rlimit limit{200'000, RLIM_INFINITY};
+                      ::setrlimit(RLIMIT_FSIZE, &limit);
+                      Spool spool(path, at(0), "boot");
+                      for (std::uint64_t k = 1000 * run + 1; k <= 1000 * run + 300; ++k) {
+                          spool.store(std::vector{accepted(k, std::string(100, 'x'))});
+                          spool.note_gone(k);
+                      }
+                      ::raise(SIGKILL);
+                  }),
+                  SIGKILL);
+    }
+    EXPECT_EQ(held(path).size(), 3U);  // the last one that went in each run was not yet told
+}
+
 TEST(Spool, StoresAllOrNone) {
     const TempFolder folder;
     const std::string path = folder.file("q.db");

@@ -64,6 +64,9 @@ struct Spool::Impl {
     void write_notes();
     template <class Body>
     void transaction(Body body);
+    template <class Body>
+    void try_transaction(Body& body);
+    bool fold_log();
     void insert(const Accepted& accepted);
 
     Database db;
@@ -82,14 +85,35 @@ struct Spool::Impl {
 
 Spool::Impl::Impl(const std::string& path, Now now, const std::string& boot)
     : db(open_database(path)) {
+    fold_log();  // of a process that was killed
     if (!is_same_boot(boot)) transaction([&] { move_to(boot, now); });
     load_messages();
     load_rest();
 }
 
-/// All or nothing.
+/// Folds the log of commits into the database, so that its room is used again: SQLite does so by
+/// itself only when the log has 1000 pages, which a nearly full disk may not have.
+bool Spool::Impl::fold_log() {
+    try {
+        return db.number("PRAGMA wal_checkpoint(TRUNCATE)") == 0;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+/// All or nothing. What finds no room is tried once more where the log can make some.
 template <class Body>
 void Spool::Impl::transaction(Body body) {
+    try {
+        return try_transaction(body);
+    } catch (const Error& e) {
+        if (e.code() != ExitCode::io || !fold_log()) throw;
+    }
+    try_transaction(body);
+}
+
+template <class Body>
+void Spool::Impl::try_transaction(Body& body) {
     begin.run();
     try {
         body();
