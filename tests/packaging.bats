@@ -51,7 +51,7 @@ make_debs() {
 @test "packaging: the demo builds all that is installed" {
     command -v ninja > /dev/null || skip "ninja is not installed"
     [[ $(from_cache CMAKE_GENERATOR) == Ninja ]] || skip "only Ninja says what a target is made of"
-    read -ra targets < <(sed -n 's/.*--target \([a-z -]*\)$/\1/p' "$BATS_TEST_DIRNAME/../scripts/demo" | tr '\n' ' ')
+    mapfile -t targets < <(sed -n 's/.*--target \([a-z -]*\)$/\1/p' "$BATS_TEST_DIRNAME/../scripts/demo" | tr ' ' '\n')
     ((${#targets[@]} > 0))
     ninja -C "$build" -t commands "${targets[@]}" > made
     for file in "$usr"/bin/* "$usr"/lib/*.a "$usr"/lib/*/*.a "$usr"/share/man/man?/*; do
