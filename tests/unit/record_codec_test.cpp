@@ -295,11 +295,5 @@ TEST(RecordCodec, ARecordFitsIntoAPipe) {
               std::string::npos);
 }
 
-TEST(RecordCodec, FormsHaveNames) {
-    EXPECT_EQ(form_of("ndjson"), Form::ndjson);
-    EXPECT_EQ(form_of("delimited"), Form::delimited);
-    EXPECT_THROW(form_of("hex"), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace seautils::record

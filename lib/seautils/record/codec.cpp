@@ -9,7 +9,6 @@
 #include "seautils/stream/hex.hpp"
 
 #include <map>
-#include <stdexcept>
 #include <type_traits>
 
 namespace seautils::record {
@@ -386,12 +385,6 @@ void Codec::convert(std::string_view text, Form from, Form to, std::string& out)
     }
     impl_->serialize(to);
     append_framed(out, impl_->bytes, to);
-}
-
-Form form_of(std::string_view name) {
-    if (name == "ndjson") return Form::ndjson;
-    if (name == "delimited") return Form::delimited;
-    throw std::invalid_argument("records have no form " + quote(name));
 }
 
 std::string_view kind_name(const Record& record) {

@@ -14,9 +14,6 @@ namespace seautils::record {
 /// binary form.
 enum class Form : std::uint8_t { ndjson, delimited };
 
-/// Of a tool's -F or -f. @throws std::invalid_argument  another
-Form form_of(std::string_view name);
-
 /// A record may take this many bytes, with its line end or its length: as many as a pipe takes
 /// from one write without mixing them with another's (PIPE_BUF of Linux).
 constexpr std::size_t max_bytes = 4096;
