@@ -469,6 +469,22 @@ TEST(ModemDriver, CommandsThatTheModemRefusesAreNotSaidAgain) {
               "result #7 FAILED: the modem refused it: 130357,CYC,3,field 4 is not 0 to 5");
 }
 
+TEST(ModemDriver, FaultsWhileItSettlesAreAboutNothingThatWasSaid) {
+    Rig rig;
+    rig.open();
+    for (const std::string& body : rig.written()) rig.answer(body, "0.93.0.30");
+    while (!rig.driver().ready() && rig.now().steady_ns < 60'000'000'000) {
+        rig.says("CAERR,120000,CYC,3,field 4 is not 0 to 5");
+        rig.says("CAERR,120000,NMEA,5,unknown");
+        rig.pass(0.5);
+        for (const std::string& body : rig.written()) {
+            EXPECT_TRUE(body.starts_with("CC")) << body;
+            rig.answer(body, "0.93.0.30");
+        }
+    }
+    EXPECT_TRUE(rig.driver().ready());
+}
+
 TEST(ModemDriver, ARequestMeansThatTheCycleWasTaken) {
     Rig rig;
     rig.start();

@@ -302,8 +302,10 @@ void Driver::on_fault(const Fault& fault, Moment now) {
             end(Result::Outcome::failed, "the modem did not get its data in time", now);
         return;
     }
+    if (dialog_.outstanding(Kind::pause)) return;  // about nothing that was said
     const bool of_front = dialog_.outstanding() && !fault.module.empty() &&
-                          dialog_.front().body.substr(2).starts_with(fault.module);
+                          dialog_.front().body.compare(0, 2, "CC") == 0 &&
+                          dialog_.front().body.compare(2, fault.module.size(), fault.module) == 0;
     if (of_front && dialog_.front().kind == Kind::transmission)
         return end(Result::Outcome::failed, "the modem refused it: " + std::string(fault.text),
                    now);
