@@ -83,7 +83,7 @@ TEST(ModemReplay, TimesBeforeTheSentence) {
     }
     for (const char* before : {"", "12:00:25 ", "2024-13-01T12:00:25Z ", "2024-May-32 12:00:25 ",
                                "2024-05-01T25:00:25Z ", "2024-05-01 ", "2024-Foo-01 12:00:25 ",
-                               "20240501120025 ", "1 "}) {
+                               "20240501120025 ", "1 ", "9714564825.5 "}) {
         EXPECT_EQ(time_of(before).ns, -1) << before;
     }
 }

@@ -18,6 +18,7 @@ using record::ModemEvent;
 using record::UtcTime;
 
 constexpr std::int64_t second_ns = 1'000'000'000;
+constexpr std::int64_t last_second = 7'258'118'400;  // 2200-01-01T00:00:00Z
 constexpr std::array<std::string_view, 12> months = {"jan", "feb", "mar", "apr", "may", "jun",
                                                      "jul", "aug", "sep", "oct", "nov", "dec"};
 
@@ -50,7 +51,7 @@ std::optional<std::int64_t> clock_ns(std::string_view text) {
     return (hour * 3600 + minute * 60 + second) * second_ns + fraction_ns(text.substr(8));
 }
 
-/// `1714564825.5`, ten digits and a fraction.
+/// `1714564825.5`, ten digits and a fraction, before the year 2200.
 std::optional<UtcTime> epoch(std::string_view text) {
     std::int64_t seconds = 0;
     std::size_t k = 0;
@@ -58,7 +59,7 @@ std::optional<UtcTime> epoch(std::string_view text) {
         if (k == 10) return {};
         seconds = seconds * 10 + (text[k] - '0');
     }
-    if (k < 9) return {};
+    if (k < 9 || seconds >= last_second) return {};
     return UtcTime{seconds * second_ns + fraction_ns(text.substr(k))};
 }
 
