@@ -63,7 +63,7 @@ struct Interval {
 class RunEncoder {
 public:
     template <class PutBit>
-    void symbol(Counts::Part part, std::uint32_t total, PutBit& put) {
+    void symbol(Counts::Part part, std::uint32_t total, PutBit&& put) {
         interval_.narrow(part, total);
         for (std::uint64_t subtract = 0; interval_.must_double(subtract);) {
             if (subtract == quarter)
@@ -76,7 +76,7 @@ public:
 
     /// The fewest bits that pin a code within the interval, whatever follows them.
     template <class PutBit>
-    void finish(PutBit& put) {
+    void finish(PutBit&& put) {
         if (interval_.low == 0 && interval_.high == top && pending_ == 0) return;
         if (interval_.low == 0) return emit(false, put);
         if (interval_.high == top) return emit(true, put);
@@ -86,7 +86,7 @@ public:
 
 private:
     template <class PutBit>
-    void emit(bool bit, PutBit& put) {
+    void emit(bool bit, PutBit&& put) {
         put(bit);
         for (; pending_ > 0; --pending_) put(!bit);
     }
@@ -97,21 +97,33 @@ private:
 
 class RunDecoder {
 public:
-    /// Reads no more bits than the symbol takes to be certain.
     template <class GetBit>
     Symbol symbol(const Counts& counts, GetBit& get) {
-        const std::uint64_t total = counts.total();
+        Symbol symbol = 0;
+        part(
+            counts.total(),
+            [&](std::uint32_t cumulative) {
+                symbol = counts.find(cumulative);
+                return counts.part(symbol);
+            },
+            get);
+        return symbol;
+    }
+
+    /// The part of the total that part_at(cumulative) gives; reads no more bits than it takes to be
+    /// certain of it.
+    template <class PartAt, class GetBit>
+    Counts::Part part(std::uint64_t total, PartAt part_at, GetBit&& get) {
         for (;;) {
             const std::uint64_t cumulative =
                 ((code_ - interval_.low + 1) * total - 1) / interval_.range();
-            const Symbol symbol = counts.find(static_cast<std::uint32_t>(cumulative));
-            const Counts::Part part = counts.part(symbol);
+            const Counts::Part part = part_at(static_cast<std::uint32_t>(cumulative));
             const std::uint64_t end = interval_.end(std::uint64_t{part.below} + part.weight, total);
             bool moved = false;
             while (!moved && code_ + unknown() >= end) moved = read(get);
             if (moved) continue;
             narrow(part, total);
-            return symbol;
+            return part;
         }
     }
 

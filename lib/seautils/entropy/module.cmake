@@ -1,1 +1,1 @@
-seautils_module(NAME entropy SOURCES model.cpp arithmetic.cpp DEPENDS core LINK fmt::fmt)
+seautils_module(NAME entropy SOURCES model.cpp arithmetic.cpp bits.cpp DEPENDS core LINK fmt::fmt)

@@ -1,0 +1,26 @@
+#ifndef SEAUTILS_POSITION_CELL_HPP
+#define SEAUTILS_POSITION_CELL_HPP
+
+#include <cstdint>
+
+namespace seautils::position {
+
+/// A position as it is sent: whole numbers of the resolution from the origin of the grid, along
+/// each axis. x east, y north, z up (under water: negative).
+struct Cell {
+    std::int32_t x = 0, y = 0, z = 0;
+
+    friend bool operator==(const Cell&, const Cell&) = default;
+};
+
+/// All three are within -cell_limit to cell_limit: with 1 m, 4194 km.
+inline constexpr std::int32_t cell_limit = (1 << 22) - 1;
+
+inline bool in_limits(const Cell& c) {
+    const auto fits = [](std::int32_t v) { return v >= -cell_limit && v <= cell_limit; };
+    return fits(c.x) && fits(c.y) && fits(c.z);
+}
+
+}  // namespace seautils::position
+
+#endif  // SEAUTILS_POSITION_CELL_HPP

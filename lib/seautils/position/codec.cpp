@@ -1,0 +1,42 @@
+#include "seautils/position/codec.hpp"
+
+#include "seautils/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace seautils::position {
+
+void Codec::encode_alone(const Cell& next, entropy::BitString& out) {
+    entropy::Encoder coder(out);
+    encode(next, coder);
+    coder.finish();
+}
+
+std::optional<Cell> Codec::decode_alone(entropy::BitReader& in) {
+    entropy::Decoder coder(in);
+    return decode(coder);
+}
+
+void Codec::encode_end(entropy::Encoder&) {
+    throw std::logic_error("this codec has no code for the end");
+}
+
+namespace {
+
+void check(const char* what, std::int64_t value, std::int64_t most, const char* unit) {
+    if (value < 1 || value > most)
+        throw ConfigError(fmt::format("{} {} is outside 1 to {} {}", what, value, most, unit));
+}
+
+}  // namespace
+
+std::unique_ptr<Codec> make_codec(const CodecOptions& options) {
+    check("interval", options.interval_ms, 86'400'000, "ms");
+    check("speed", options.speed_mmps, 100'000, "mm/s");
+    check("resolution", options.resolution_mm, 1'000'000, "mm");
+    throw ConfigError("no codec yet");
+}
+
+}  // namespace seautils::position

@@ -1,0 +1,3 @@
+seautils_module(NAME position
+  SOURCES codec.cpp
+  DEPENDS core entropy LINK fmt::fmt)
