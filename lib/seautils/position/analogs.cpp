@@ -1,0 +1,78 @@
+#include "seautils/position/analogs.hpp"
+
+namespace seautils::position {
+
+namespace {
+
+constexpr std::int32_t most_feature = 8191;         // 512 cells
+constexpr std::int32_t mirror_distance = 77;        // 0.3 cells²
+constexpr std::int32_t most_outcome = 1 << 27;
+
+std::int32_t bounded(std::int32_t feature) {
+    return static_cast<std::int32_t>(clamp(feature, -most_feature, most_feature));
+}
+
+}  // namespace
+
+Analogs::Analogs(std::size_t capacity, std::size_t features, bool mirrored,
+                 std::size_t first_across)
+    : capacity_(capacity),
+      first_across_(first_across),
+      mirrored_(mirrored),
+      feature_(features, std::vector<std::int16_t>(capacity)),
+      outcome_(capacity) {}
+
+void Analogs::remember(const Features& situation, Pair outcome) {
+    for (std::size_t f = 0; f < feature_.size(); ++f)
+        feature_[f][next_] = static_cast<std::int16_t>(bounded(situation.value[f]));
+    const auto within = [](std::int32_t v) {
+        return static_cast<std::int32_t>(clamp(v, -most_outcome, most_outcome));
+    };
+    outcome_[next_] = {within(outcome.x), within(outcome.y)};
+    next_ = (next_ + 1) % capacity_;
+    if (size_ < capacity_) ++size_;
+}
+
+void Analogs::measure(const Features& situation, std::vector<std::int32_t>& distance,
+                      bool mirrored) const {
+    const std::int32_t base = mirrored ? mirror_distance : 0;
+    const auto youngest = static_cast<std::int32_t>(next_ + capacity_ - 1);
+    for (std::size_t k = 0; k < size_; ++k) {
+        const std::int32_t age = youngest - static_cast<std::int32_t>(k);
+        const auto capacity = static_cast<std::int32_t>(capacity_);
+        distance[k] = base + (age >= capacity ? age - capacity : age) / 8;
+    }
+    for (std::size_t f = 0; f < feature_.size(); ++f) {
+        const std::int32_t sign = mirrored && f >= first_across_ ? -1 : 1;
+        const std::int32_t here = sign * bounded(situation.value[f]);
+        const std::int16_t* const there = feature_[f].data();
+        for (std::size_t k = 0; k < size_; ++k) {
+            const std::int32_t difference = here - there[k];
+            distance[k] += difference * difference;
+        }
+    }
+}
+
+std::size_t Analogs::find(const Features& situation, std::span<Found> found) const {
+    thread_local std::vector<std::int32_t> distance;
+    distance.resize(capacity_);
+    std::size_t count = 0;
+    const auto look = [&](std::size_t k, bool mirrored) {
+        if (count == found.size() && distance[k] >= found[count - 1].distance) return;
+        Pair outcome = outcome_[k];
+        if (mirrored) outcome.y = -outcome.y;
+        if (count < found.size()) ++count;
+        std::size_t at = count - 1;
+        for (; at > 0 && found[at - 1].distance > distance[k]; --at) found[at] = found[at - 1];
+        found[at] = {distance[k], outcome};
+    };
+    for (const bool mirrored : {false, true}) {
+        if (mirrored && !mirrored_) break;
+        measure(situation, distance, mirrored);
+        for (std::size_t k = next_; k > 0; --k) look(k - 1, mirrored);
+        for (std::size_t k = size_; k > next_; --k) look(k - 1, mirrored);
+    }
+    return count;
+}
+
+}  // namespace seautils::position

@@ -1,0 +1,64 @@
+#ifndef SEAUTILS_POSITION_MIX_MODEL_HPP
+#define SEAUTILS_POSITION_MIX_MODEL_HPP
+
+#include "seautils/position/predictors.hpp"
+#include "seautils/position/value_coder.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace seautils::position {
+
+/// All that is known of one vehicle's ways, and what it makes of the motion so far. A value.
+class MixModel {
+public:
+    static constexpr std::size_t planes = 7, depths = 4;
+
+    /// @param capacity  situations that each memory keeps
+    explicit MixModel(std::size_t capacity);
+
+    /// What is expected next, from the last known position.
+    struct Forecast {
+        std::array<PlaneMixture, planes> plane;
+        std::array<Mixture, depths> depth;
+        std::array<Mixture, planes> along_x, along_y;
+        Pair slow, fast;
+        std::int32_t slow_z, fast_z;
+    };
+    void forecast(const Motion& motion, Forecast& f);
+
+    ValueCoder z_coder(const Motion& motion, const Forecast& f);
+    ValueCoder x_coder(const Motion& motion, Forecast& f);
+    ValueCoder y_coder(const Motion& motion, Forecast& f, std::int32_t step_x);
+
+    /// @param step  from the last known position, cells
+    void learn(const Motion& motion, const Forecast& f, const Cell& step);
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a.all(slow_, fast_, turn_, path_, innovation_, world_, place_, slow_z_, fast_z_, hold_z_, cases_,
+              plane_mixer_, depth_mixer_);
+        for (auto& s : plane_score_) a.number(s);
+        for (auto& s : depth_score_) a.number(s);
+    }
+
+private:
+    static Mixer::Contexts plane_contexts(const Motion& motion);
+    static Mixer::Contexts depth_contexts(const Motion& motion);
+    ValueCoder coder_of(const std::array<Mixture, planes>& models, const Motion& motion);
+
+    FilterModel slow_, fast_;
+    TurnModel turn_;
+    AnalogModel path_, innovation_, world_, place_;
+    DepthModel slow_z_, fast_z_, hold_z_;
+    DepthAnalogModel cases_;
+    Mixer plane_mixer_, depth_mixer_;
+    /// How well the filters did of late: sums of log2 of what they expected, Q16.
+    std::array<std::int32_t, 2> plane_score_{};
+    std::array<std::int32_t, 3> depth_score_{};
+};
+
+}  // namespace seautils::position
+
+#endif  // SEAUTILS_POSITION_MIX_MODEL_HPP
