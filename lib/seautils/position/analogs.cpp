@@ -4,12 +4,10 @@ namespace seautils::position {
 
 namespace {
 
-constexpr std::int32_t most_feature = 8191;         // 512 cells
-constexpr std::int32_t mirror_distance = 77;        // 0.3 cells²
-constexpr std::int32_t most_outcome = 1 << 27;
+constexpr std::int32_t mirror_distance = 77;  // 0.3 cells²
 
 std::int32_t bounded(std::int32_t feature) {
-    return static_cast<std::int32_t>(clamp(feature, -most_feature, most_feature));
+    return static_cast<std::int32_t>(clamp(feature, -Analogs::most_feature, Analogs::most_feature));
 }
 
 }  // namespace

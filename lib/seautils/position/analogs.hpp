@@ -26,6 +26,8 @@ struct Features {
 class Analogs {
 public:
     static constexpr std::size_t most_found = 16;
+    static constexpr std::int32_t most_feature = 8191;  ///< 512 cells; what is more counts as that
+    static constexpr std::int32_t most_outcome = 1 << 27;  ///< the same
     struct Found {
         std::int32_t distance;  ///< 1/256 cell²
         Pair outcome;
@@ -51,15 +53,17 @@ public:
         a.count(size_, capacity_);
         a.count(next_, capacity_ - 1);
         for (auto& column : feature_)
-            for (std::size_t k = 0; k < size_; ++k) a.number(column[k]);
+            for (std::size_t k = 0; k < size_; ++k)
+                a.number(column[k], -most_feature, most_feature);
         for (std::size_t k = 0; k < size_; ++k) {
-            a.number(outcome_[k].x);
-            a.number(outcome_[k].y);
+            a.number(outcome_[k].x, -most_outcome, most_outcome);
+            a.number(outcome_[k].y, -most_outcome, most_outcome);
         }
     }
 
 private:
-    void measure(const Features& situation, std::vector<std::int32_t>& distance, bool mirrored) const;
+    void measure(const Features& situation, std::vector<std::int32_t>& distance,
+                 bool mirrored) const;
 
     std::size_t capacity_ = 0, first_across_ = Features::most;
     bool mirrored_ = false;

@@ -1,6 +1,7 @@
 #include "seautils/position/codec.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/position/mix_codec.hpp"
 
 #include <fmt/format.h>
 
@@ -36,6 +37,7 @@ std::unique_ptr<Codec> make_codec(const CodecOptions& options) {
     check("interval", options.interval_ms, 86'400'000, "ms");
     check("speed", options.speed_mmps, 100'000, "mm/s");
     check("resolution", options.resolution_mm, 1'000'000, "mm");
+    if (options.kind == CodecOptions::Kind::mix) return std::make_unique<MixCodec>(options);
     throw ConfigError("no codec yet");
 }
 

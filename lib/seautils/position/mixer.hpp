@@ -16,7 +16,7 @@ class Mixer {
 public:
     static constexpr std::size_t most_inputs = 10;  ///< the bias included
     static constexpr std::size_t networks = 3;
-    static constexpr std::size_t kinds = 15;      ///< of questions
+    static constexpr std::size_t kinds = 15;     ///< of questions
     static constexpr std::size_t fractions = 9;  ///< places within a cell that an answer depends on
 
     /// What the models say: logits of "yes", Q12; 0 of a model that has no opinion.
@@ -48,11 +48,11 @@ public:
     template <class Archive>
     void archive(Archive& a) {
         for (auto& network : networks_) {
-            for (auto& w : network.weight) a.number(w);
+            for (auto& w : network.weight) a.number(w, -most_weight, most_weight);
             for (auto& s : network.seen) a.number(s);
         }
-        for (auto& w : joining_) a.number(w);
-        for (auto& p : corrected_) a.number(p);
+        for (auto& w : joining_) a.number(w, -most_weight, most_weight);
+        for (auto& p : corrected_) a.number(p, 1, 65535);
     }
 
 private:
@@ -60,11 +60,12 @@ private:
         std::vector<std::int32_t> weight;  ///< inputs of each set of weights, Q16
         std::vector<std::uint16_t> seen;   ///< how often each set has learnt
     };
+    static constexpr std::int32_t most_weight = 1 << 22;
     static constexpr std::size_t steps = 24;  ///< of the table, of 0.7 each
 
     std::size_t inputs_ = 0;
     std::array<Network, networks> networks_;
-    std::vector<std::int32_t> joining_;    ///< weights of the three, of each kind, Q16
+    std::vector<std::int32_t> joining_;     ///< weights of the three, of each kind, Q16
     std::vector<std::uint16_t> corrected_;  ///< probabilities of each kind, fraction and step, Q16
 };
 

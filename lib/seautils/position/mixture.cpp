@@ -29,8 +29,7 @@ void PlaneMixture::add(std::int32_t weight, Pair mean, std::int64_t along, std::
     const std::int64_t a = along * along, c = across * across;
     const std::int64_t variance_x = a * xx + c * yy;
     const std::int64_t sd_x = square_root(static_cast<std::uint64_t>(variance_x >> 14));
-    const std::int64_t slope =
-        clamp((a - c) * xy / ((variance_x >> 14) + 1), -(1 << 24), 1 << 24);
+    const std::int64_t slope = clamp((a - c) * xy / ((variance_x >> 14) + 1), -(1 << 24), 1 << 24);
     // The determinant does not turn: the standard deviation of y given x is what is left of it.
     const std::int64_t sd_y = along * across / (sd_x + 1);
     const auto bounded = [](std::int64_t sd) {
@@ -56,8 +55,8 @@ PlaneMixture::Weights PlaneMixture::reweighted(const Weights& expected) const {
     Weights weights{};
     const std::int64_t unit = (total >> 20) + 1;
     for (std::size_t k = 0; k < size_; ++k)
-        weights[k] = unit < 256 ? components_[k].weight
-                                : static_cast<std::int32_t>(product[k] / unit);
+        weights[k] =
+            unit < 256 ? components_[k].weight : static_cast<std::int32_t>(product[k] / unit);
     return weights;
 }
 

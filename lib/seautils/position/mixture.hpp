@@ -51,8 +51,9 @@ public:
     std::int32_t component_below(std::size_t k, std::int32_t edge) const {
         const std::int32_t from_mean = edge - mean_[k];
         const std::int32_t reach = reach_[k];
-        const std::int32_t near =
-            from_mean < -reach ? -reach : from_mean > reach ? reach : from_mean;
+        const std::int32_t near = from_mean < -reach  ? -reach
+                                  : from_mean > reach ? reach
+                                                      : from_mean;
         return normal_cdf_q24(near * inverse_[k] >> 8);
     }
     std::int32_t weight(std::size_t k) const { return weight_[k]; }
@@ -71,11 +72,11 @@ private:
 class PlaneMixture {
 public:
     struct Component {
-        std::int32_t weight;    ///< Q20
-        Pair mean;              ///< 1/256 cell
-        std::int32_t sd_x;      ///< of x
-        std::int32_t slope;     ///< by how much y rises with x, Q14
-        std::int32_t sd_y;      ///< of y where x is known
+        std::int32_t weight;  ///< Q20
+        Pair mean;            ///< 1/256 cell
+        std::int32_t sd_x;    ///< of x
+        std::int32_t slope;   ///< by how much y rises with x, Q14
+        std::int32_t sd_y;    ///< of y where x is known
     };
 
     void clear() { size_ = 0; }

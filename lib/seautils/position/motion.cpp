@@ -100,7 +100,9 @@ void Motion::step_plane(const Cell& cell) {
             const std::size_t run = index_of(f->run);
             const auto q8 = [](std::int64_t e) { return clamp(e >> 8, -(1 << 24), 1 << 24); };
             if (f == &fast)
-                innovation[0] = into_frame({static_cast<std::int32_t>(q8(ex)), static_cast<std::int32_t>(q8(ey))}, heading);
+                innovation[0] = into_frame(
+                    {static_cast<std::int32_t>(q8(ex)), static_cast<std::int32_t>(q8(ey))},
+                    heading);
             const std::int64_t square = q8(ex) * q8(ex) + q8(ey) * q8(ey);
             if (f == &fast && f->run >= 1 && surprising(square, g.innovation[run], q16(0.4), 896)) {
                 begin(*f);

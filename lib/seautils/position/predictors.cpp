@@ -28,8 +28,8 @@ std::array<std::int32_t, most_components> responsibility(const Mixture& m, std::
     std::int64_t total = 0;
     std::array<std::int64_t, most_components> product{};
     for (std::size_t k = 0; k < m.size(); ++k) {
-        const std::int64_t mass = m.component_below(k, upper_edge(cell)) -
-                                  m.component_below(k, upper_edge(cell - 1));
+        const std::int64_t mass =
+            m.component_below(k, upper_edge(cell)) - m.component_below(k, upper_edge(cell - 1));
         total += product[k] = mass * m.weight(k);
     }
     const std::int64_t unit = (total >> 20) + 1;
@@ -46,7 +46,8 @@ constexpr std::array<std::int32_t, 4> depth_scales{128, 230, 435, 1024};
 std::int32_t rank_share(std::size_t rank, std::size_t n) {
     std::int64_t total = 0;
     for (std::size_t k = 0; k < n; ++k) total += one_q20 / static_cast<std::int32_t>(k + 2);
-    return static_cast<std::int32_t>((std::int64_t{one_q20} << 20) / static_cast<std::int32_t>(rank + 2) / (total + 1));
+    return static_cast<std::int32_t>((std::int64_t{one_q20} << 20) /
+                                     static_cast<std::int32_t>(rank + 2) / (total + 1));
 }
 
 template <std::size_t N>
@@ -89,7 +90,8 @@ void FilterModel::learn(const Motion& motion, Pair expected, const PlaneMixture&
 namespace {
 
 struct TurnAngle {
-    std::int32_t cosine_q14, sine_q14, half_gap_q14;  ///< gap: radians between its neighbours, half of it
+    std::int32_t cosine_q14, sine_q14,
+        half_gap_q14;  ///< gap: radians between its neighbours, half of it
 };
 // 6, 13, 20, 28, 37, 47, 58, 70, 85, 105, 130, 165 degrees
 constexpr std::array<TurnAngle, TurnModel::angles> turn_angles{{{16294, 1713, 1859},
@@ -145,13 +147,18 @@ PlaneMixture TurnModel::predict(const Motion& motion) const {
             continue;
         }
         const std::int32_t length =
-            end == straight ? speed_
-                            : static_cast<std::int32_t>(std::int64_t{speed_} * ratio_[end % angles] >> 12);
-        const std::int32_t gap = end == straight ? turn_angles[0].half_gap_q14 : turn_angles[end % angles].half_gap_q14;
+            end == straight
+                ? speed_
+                : static_cast<std::int32_t>(std::int64_t{speed_} * ratio_[end % angles] >> 12);
+        const std::int32_t gap =
+            end == straight ? turn_angles[0].half_gap_q14 : turn_angles[end % angles].half_gap_q14;
         const Pair ahead = turned(end, length, motion.turn_sign);
         const std::int64_t along = std::max<std::int64_t>(230, length / 10);
-        const std::int64_t across = std::max<std::int64_t>(205, (std::int64_t{length} * gap >> 14) * 6 / 10);
-        const Direction direction = direction_of(out_of_frame(turned(end, 1 << 14, motion.turn_sign), motion.heading), 1, motion.heading);
+        const std::int64_t across =
+            std::max<std::int64_t>(205, (std::int64_t{length} * gap >> 14) * 6 / 10);
+        const Direction direction =
+            direction_of(out_of_frame(turned(end, 1 << 14, motion.turn_sign), motion.heading), 1,
+                         motion.heading);
         m.add(weight, out_of_frame(ahead, motion.heading), along, across, direction);
     }
     return m;
@@ -199,11 +206,15 @@ AnalogModel::View AnalogModel::view(const Motion& motion) const {
         case Kind::innovation: {
             v.frame = motion.heading;
             v.base = motion.expected(motion.fast);
-            const Pair velocity{static_cast<std::int32_t>(clamp(motion.fast.x.velocity >> 12, -most_mean, most_mean)),
-                                static_cast<std::int32_t>(clamp(motion.fast.y.velocity >> 12, -most_mean, most_mean))};
+            const Pair velocity{static_cast<std::int32_t>(
+                                    clamp(motion.fast.x.velocity >> 12, -most_mean, most_mean)),
+                                static_cast<std::int32_t>(
+                                    clamp(motion.fast.y.velocity >> 12, -most_mean, most_mean))};
             f = {static_cast<std::int32_t>(length(velocity) / 2),
-                 weighted(motion.innovation[0].x >> 4, 14), weighted(motion.innovation[1].x >> 4, 8),
-                 weighted(motion.innovation[0].y >> 4, 14), weighted(motion.innovation[1].y >> 4, 8)};
+                 weighted(motion.innovation[0].x >> 4, 14),
+                 weighted(motion.innovation[1].x >> 4, 8),
+                 weighted(motion.innovation[0].y >> 4, 14),
+                 weighted(motion.innovation[1].y >> 4, 8)};
             break;
         }
         case Kind::world: {
@@ -249,7 +260,9 @@ void AnalogModel::learn(const Motion& motion, const PlaneMixture& said, const Ce
     const Pair q = in_q8(step);
     Pair outcome = into_frame({q.x - v.base.x, q.y - v.base.y}, v.frame);
     if (kind_ == Kind::innovation) {
-        const auto within = [](std::int32_t e) { return static_cast<std::int32_t>(clamp(e, -5120, 5120)); };
+        const auto within = [](std::int32_t e) {
+            return static_cast<std::int32_t>(clamp(e, -5120, 5120));
+        };
         outcome = {within(outcome.x), within(outcome.y)};
     }
     if (said.size() > 0) {
@@ -275,12 +288,15 @@ Mixture DepthModel::predict(std::int32_t expected) const {
 void DepthModel::learn(std::int32_t expected, const Mixture& said, std::int32_t step) {
     const auto each = responsibility(said, step);
     shares_.follow(by_scale<4>(each), 65535, one_q20 / 20);
-    error_.take(square(clamp(std::int64_t{step} * 256 - expected, -most_mean, most_mean)), filter_rate_q8);
+    error_.take(square(clamp(std::int64_t{step} * 256 - expected, -most_mean, most_mean)),
+                filter_rate_q8);
 }
 
 Features DepthAnalogModel::view(const Motion& motion) {
     const auto& d = motion.sunk;
-    const auto bounded = [](std::int64_t v) { return static_cast<std::int32_t>(clamp(v, -most_mean, most_mean)); };
+    const auto bounded = [](std::int64_t v) {
+        return static_cast<std::int32_t>(clamp(v, -most_mean, most_mean));
+    };
     return {{bounded(std::int64_t{d[0]} * 16), bounded(std::int64_t{d[1]} * 14),
              bounded(std::int64_t{d[2]} * 14), bounded(std::int64_t{motion.last.z} * 12), 0}};
 }
@@ -301,7 +317,8 @@ Mixture DepthAnalogModel::predict(const Motion& motion) {
 
 void DepthAnalogModel::learn(const Motion& motion, const Mixture& said, std::int32_t step) {
     if (motion.known < 3) return;
-    const auto q = static_cast<std::int32_t>(clamp(std::int64_t{step} * 256, -most_mean, most_mean));
+    const auto q =
+        static_cast<std::int32_t>(clamp(std::int64_t{step} * 256, -most_mean, most_mean));
     if (said.size() > 0) {
         const auto each = responsibility(said, step);
         std::int64_t error = 0;

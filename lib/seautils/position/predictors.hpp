@@ -21,7 +21,8 @@ public:
     std::int32_t operator[](std::size_t k) const { return share_[k]; }
 
     /// Moves them towards `seen` by rate / 65536, and keeps each above least / N.
-    void follow(const std::array<std::int32_t, N>& seen, std::int32_t rate, std::int32_t least_q20) {
+    void follow(const std::array<std::int32_t, N>& seen, std::int32_t rate,
+                std::int32_t least_q20) {
         for (std::size_t k = 0; k < N; ++k) {
             std::int64_t moved = share_[k] + ((std::int64_t{seen[k]} - share_[k]) * rate >> 16);
             moved -= moved * least_q20 >> 20;
@@ -99,8 +100,8 @@ private:
     static std::size_t context(const Motion& motion);
 
     std::array<std::array<std::int32_t, ends>, 12> counts_{};  ///< Q14
-    std::array<std::int32_t, angles> ratio_{};                 ///< of the step to the usual one, Q12
-    std::int32_t speed_ = 0;                                   ///< usual step, 1/256 cell
+    std::array<std::int32_t, angles> ratio_{};  ///< of the step to the usual one, Q12
+    std::int32_t speed_ = 0;                    ///< usual step, 1/256 cell
 };
 
 /// What came after similar situations.
@@ -122,7 +123,7 @@ private:
     struct View {
         Features features;
         Direction frame;
-        Pair base;     ///< where an outcome counts from, 1/256 cell
+        Pair base;  ///< where an outcome counts from, 1/256 cell
         bool usable;
     };
     View view(const Motion& motion) const;

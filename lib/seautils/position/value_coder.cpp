@@ -4,9 +4,9 @@ namespace seautils::position {
 
 namespace {
 
-constexpr std::int32_t least_mass = 32;       // of 2^24: what no model can exclude
-constexpr std::int32_t most_input = 33219;    // 8.11, Q12
-constexpr std::int32_t bias = 1229;           // 0.3, Q12
+constexpr std::int32_t least_mass = 32;     // of 2^24: what no model can exclude
+constexpr std::int32_t most_input = 33219;  // 8.11, Q12
+constexpr std::int32_t bias = 1229;         // 0.3, Q12
 
 /// ln(yes / no) in Q12.
 std::int32_t logit_q12(std::int32_t yes, std::int32_t no) {

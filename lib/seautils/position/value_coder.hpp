@@ -15,7 +15,8 @@ namespace seautils::position {
 /// one off, two off … six off? Then by ranges that double, and halving within.
 class ValueCoder {
 public:
-    static constexpr std::int32_t singles = 6;  ///< distances from the centre with questions of their own
+    static constexpr std::int32_t singles =
+        6;  ///< distances from the centre with questions of their own
 
     /// @param centre  1/256 cell
     ValueCoder(std::int32_t centre, Mixer& mixer, const Mixer::Contexts& contexts)
@@ -36,7 +37,7 @@ public:
         const Column below = column(upper_edge(centre_ - 1)), upto = column(upper_edge(centre_));
         if (ask(0, minus(upto, below), whole(), centre_, centre_, decide, learn)) return centre_;
         const bool above = ask(1, minus(whole(), upto), minus(whole(), minus(upto, below)),
-                               centre_ + 1, 2 * beyond, decide, learn);
+                               centre_ + 1, INT32_MAX, decide, learn);
         return above ? outwards<1>(upto, decide, learn) : outwards<-1>(below, decide, learn);
     }
 
