@@ -11,7 +11,7 @@ constexpr std::int32_t first_weight = 78643;     // 1.2, shared among the inputs
 constexpr std::int32_t step_q12 = 2867;          // 0.7
 constexpr std::int32_t learning_rate = 590;      // 0.009
 constexpr std::int32_t joining_rate = 131;       // 0.002
-constexpr std::int32_t correcting_rate = 7864;   // 0.12
+constexpr std::int32_t correcting_rate = 5243;   // 0.08
 constexpr std::int32_t corrected_share = 22938;  // 0.35
 constexpr std::uint16_t most_seen = 65535;
 

@@ -7,7 +7,7 @@ namespace seautils::position {
 namespace {
 
 constexpr std::int64_t filter_rate_q8 = 13, analog_rate_q8 = 8;
-constexpr std::int32_t share_rate = 1311;  // 0.02
+constexpr std::int32_t share_rate = 5243;  // 0.08
 
 std::int32_t scaled(std::int32_t v, std::int32_t scale_q8) {
     return static_cast<std::int32_t>(clamp(std::int64_t{v} * scale_q8 >> 8, 0, most_sd));
@@ -39,7 +39,7 @@ std::array<std::int32_t, most_components> responsibility(const Mixture& m, std::
 }
 
 constexpr std::array<std::int32_t, 3> filter_scales{154, 307, 768};  // 0.6, 1.2, 3
-constexpr std::array<std::int32_t, 3> analog_scales{115, 256, 666};  // 0.45, 1, 2.6
+constexpr std::array<std::int32_t, 3> analog_scales{60, 160, 700};   // 0.23, 0.63, 2.7
 constexpr std::array<std::int32_t, 4> depth_scales{128, 230, 435, 1024};
 
 /// 1 / (rank + 2) of n, together 1, Q20.
@@ -270,7 +270,7 @@ void AnalogModel::learn(const Motion& motion, const PlaneMixture& said, const Ce
         std::int64_t error = 0;
         for (std::size_t k = 0; k < said.size(); ++k) {
             const Pair mean = said.component(k).mean;
-            error += (square(q.x - mean.x) + square(q.y - mean.y)) / 2 * (each[k] >> 8) >> 12;
+            error += (square(q.x - mean.x) + square(q.y - mean.y)) / 2 * (each[k] >> 8) >> 13;
         }
         error_.take(error, analog_rate_q8);
         shares_.follow(by_scale<3>(each), share_rate, one_q20 / 100);
@@ -323,7 +323,7 @@ void DepthAnalogModel::learn(const Motion& motion, const Mixture& said, std::int
         const auto each = responsibility(said, step);
         std::int64_t error = 0;
         for (std::size_t k = 0; k < said.size(); ++k)
-            error += square(q - said.mean(k)) * (each[k] >> 8) >> 12;
+            error += square(q - said.mean(k)) * (each[k] >> 8) >> 13;
         error_.take(error, analog_rate_q8);
         shares_.follow(by_scale<3>(each), share_rate, one_q20 / 100);
     }
