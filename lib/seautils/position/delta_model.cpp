@@ -115,7 +115,8 @@ private:
         const std::int64_t value = symbol - entropy::first_value_symbol;
         const std::int64_t least = mass_below(-bound_, deviation);
         const std::int64_t all = mass_below(bound_ + 1, deviation) - least;
-        const std::int64_t share = (mass_below(value - bound_, deviation) - least) * parts / all;
+        const std::int64_t mass = mass_below(value - bound_, deviation) - least;
+        const std::int64_t share = (mass * parts + all / 2) / all;
         return end_weight(axis) + 1 + static_cast<std::uint32_t>(share + value);
     }
     /// Mass below the lower edge of a delta's cell, in 1/2^24.
