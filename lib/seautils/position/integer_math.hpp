@@ -54,25 +54,46 @@ constexpr std::uint64_t exp_minus_q30(std::uint64_t x_q24) {
     return e;
 }
 
+/// a * b in Q60, of numbers below 4.
+constexpr std::uint64_t product_q60(std::uint64_t a, std::uint64_t b) {
+    const std::uint64_t a1 = a >> 32, a0 = a & 0xFFFFFFFF, b1 = b >> 32, b0 = b & 0xFFFFFFFF;
+    const std::uint64_t middle = a1 * b0 + (a0 * b0 >> 32);
+    const std::uint64_t other = a0 * b1 + (middle & 0xFFFFFFFF);
+    return ((a1 * b1 + (middle >> 32) + (other >> 32)) << 4) + ((other & 0xFFFFFFFF) >> 28);
+}
+
+/// e^(-1/n) in Q60, by its series.
+constexpr std::uint64_t exp_minus_1_by_q60(std::uint64_t n) {
+    std::uint64_t sum = 0, term = std::uint64_t{1} << 60;
+    for (std::uint64_t k = 1; term > 0; ++k) {
+        sum = k % 2 == 1 ? sum + term : sum - term;
+        term /= n * k;
+    }
+    return sum;
+}
+
 /// Standard normal distribution function in steps of 1/64 from -5.5 to 5.5, Q24; its ends are 0 and 1.
+/// Right to the last bit: a tail's small mass is a difference of its values.
 constexpr int phi_half = 352;
 constexpr std::array<std::int32_t, 2 * phi_half + 2> make_phi() {
-    constexpr std::uint64_t density_at_0_q30 = 428359829;  // 1 / sqrt(2 pi)
+    constexpr std::uint64_t density_at_0_q60 = 459'949'134'171'706'403;  // 1 / sqrt(2 pi)
+    // e^(-x^2 / 2) at each k/128 is the one before times a ratio that shrinks by e^(-1/128^2).
+    std::uint64_t density = density_at_0_q60, ratio = exp_minus_1_by_q60(2 * 128 * 128);
+    const std::uint64_t shrink = exp_minus_1_by_q60(128 * 128);
+    const auto next = [&] {
+        density = product_q60(density, ratio);
+        ratio = product_q60(ratio, shrink);
+        return density;
+    };
     std::array<std::int32_t, 2 * phi_half + 2> phi{};
-    std::uint64_t density = density_at_0_q30;
-    std::uint64_t area_q40 = std::uint64_t{1} << 39;
+    std::uint64_t area_q60 = std::uint64_t{1} << 59;
     for (int k = 0; k <= phi_half; ++k) {
-        const auto above = static_cast<std::int32_t>((area_q40 + (1 << 15)) >> 16);
+        const auto above = static_cast<std::int32_t>((area_q60 + (std::uint64_t{1} << 35)) >> 36);
         phi.at(static_cast<std::size_t>(phi_half + k)) = above;
         phi.at(static_cast<std::size_t>(phi_half - k)) = (1 << 24) - above;
-        // Simpson's rule over the next step: x^2 / 2 at k/64 + 1/128 and at (k + 1)/64.
-        const auto at = [](std::uint64_t k_128) {
-            return density_at_0_q30 * exp_minus_q30(k_128 * k_128 << 9) >> 30;
-        };
-        const auto m = static_cast<std::uint64_t>(k);
-        const std::uint64_t next = at(2 * m + 2);
-        area_q40 += (density + 4 * at(2 * m + 1) + next) * (1 << 4) / 6;
-        density = next;
+        // Simpson's rule over the next step.
+        const std::uint64_t from = density, middle = next(), to = next();
+        area_q60 += (from + 4 * middle + to) / (3 * 128);
     }
     phi.front() = 0;
     phi.at(2 * phi_half) = phi.back() = 1 << 24;
