@@ -1,6 +1,7 @@
 #include "seautils/position/codec.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/position/thesis.hpp"
 
 #include <fmt/format.h>
 
@@ -36,6 +37,13 @@ std::unique_ptr<Codec> make_codec(const CodecOptions& options) {
     check("interval", options.interval_ms, 86'400'000, "ms");
     check("speed", options.speed_mmps, 100'000, "mm/s");
     check("resolution", options.resolution_mm, 1'000'000, "mm");
+    switch (options.kind) {
+        case CodecOptions::Kind::fixed:
+        case CodecOptions::Kind::kalman:
+            return std::make_unique<ThesisCodec>(options);
+        case CodecOptions::Kind::mix:
+            break;
+    }
     throw ConfigError("no codec yet");
 }
 

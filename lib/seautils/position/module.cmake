@@ -1,4 +1,5 @@
 seautils_module(NAME position
   SOURCES codec.cpp mixture.cpp track_filter.cpp analogs.cpp mixer.cpp motion.cpp predictors.cpp
-    value_coder.cpp mix_model.cpp state_bytes.cpp
+    value_coder.cpp mix_model.cpp state_bytes.cpp delta_model.cpp fixed_observer.cpp
+    kalman_observer.cpp thesis.cpp
   DEPENDS core entropy LINK fmt::fmt)
