@@ -2,6 +2,7 @@
 
 #include "seautils/core/error.hpp"
 #include "seautils/position/mix_codec.hpp"
+#include "seautils/position/thesis.hpp"
 
 #include <fmt/format.h>
 
@@ -38,7 +39,7 @@ std::unique_ptr<Codec> make_codec(const CodecOptions& options) {
     check("speed", options.speed_mmps, 100'000, "mm/s");
     check("resolution", options.resolution_mm, 1'000'000, "mm");
     if (options.kind == CodecOptions::Kind::mix) return std::make_unique<MixCodec>(options);
-    throw ConfigError("no codec yet");
+    return std::make_unique<ThesisCodec>(options);
 }
 
 }  // namespace seautils::position
