@@ -7,11 +7,9 @@
 
 #include "seautils/position/cost.hpp"
 
-#include <atomic>
-#include <memory>
+#include <future>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace seautils::tools {
@@ -87,35 +85,46 @@ private:
                         [this](const position::Sample& sample) { samples_.push_back(sample); });
     }
 
-    /// On all processors: each codec goes its own way.
     std::vector<position::Cost> measure(const std::vector<CodecName>& codecs) const {
-        std::vector<std::unique_ptr<position::CostMeter>> meters;
-        for (const CodecName& codec : codecs)
-            meters.push_back(std::make_unique<position::CostMeter>(
-                options_.track.codec_options(codec), options_.track.grid(), options_.deltas()));
-        std::vector<position::Cost> costs(codecs.size());
-        std::vector<std::string> faults(codecs.size());
-        std::atomic<std::size_t> next = 0;
-        const auto work = [&] {
-            for (std::size_t k = next++; k < meters.size(); k = next++) {
-                try {
-                    for (const position::Sample& sample : samples_) meters[k]->add(sample);
-                    costs[k] = meters[k]->finish();
-                } catch (const std::exception& e) {
-                    faults[k] = fmt::format("{} {}: {}", codecs[k].codec(), codecs[k].model_name(),
-                                            e.what());
-                }
-            }
-        };
-        std::vector<std::thread> others;
-        const std::size_t processors = std::thread::hardware_concurrency();
-        while (others.size() + 1 < std::min(processors, codecs.size())) others.emplace_back(work);
-        work();
-        for (std::thread& thread : others) thread.join();
-        for (const std::string& fault : faults) {
-            if (!fault.empty()) throw std::logic_error(fault);
+        std::vector<position::Cost> costs;
+        for (const CodecName& codec : codecs) {
+            auto made = position::make_codec(options_.track.codec_options(codec));
+            position::CostCheck check(made->clone(), options_.deltas());
+            position::CostMeter meter(std::move(made), options_.track.grid(), options_.deltas());
+            const std::string fault = code(meter, check);
+            if (!fault.empty())
+                throw std::logic_error(
+                    fmt::format("{} {}: {}", codec.codec(), codec.model_name(), fault));
+            costs.push_back(meter.cost());
         }
         return costs;
+    }
+
+    /// Codes, and decodes meanwhile what is coded. @return what differs
+    std::string code(position::CostMeter& meter, position::CostCheck& check) const {
+        std::future<std::string> checked;
+        for (std::size_t at = 0; at < samples_.size(); at += block) {
+            std::vector<position::CodedPositions> packets;
+            const std::size_t end = std::min(at + block, samples_.size());
+            for (std::size_t k = at; k < end; ++k) meter.add(samples_[k], packets);
+            if (end == samples_.size()) meter.finish(packets);
+            std::string fault = checked.valid() ? checked.get() : std::string();
+            if (!fault.empty()) return fault;
+            checked = std::async(std::launch::async, [&check, coded = std::move(packets)] {
+                return difference(check, coded);
+            });
+        }
+        return checked.valid() ? checked.get() : std::string();
+    }
+
+    static std::string difference(position::CostCheck& check,
+                                  const std::vector<position::CodedPositions>& packets) {
+        try {
+            for (const position::CodedPositions& packet : packets) check.check(packet);
+            return {};
+        } catch (const std::exception& e) {
+            return e.what();
+        }
     }
 
     void table(const std::vector<CodecName>& codecs, const std::vector<position::Cost>& costs) {
@@ -161,6 +170,8 @@ private:
         }
         Plot::draw(target, curves);
     }
+
+    static constexpr std::size_t block = 500;  ///< samples between two looks at the decoder
 
     cli::Io& io_;
     const StatOptions& options_;

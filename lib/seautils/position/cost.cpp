@@ -8,69 +8,58 @@
 
 namespace seautils::position {
 
-CostMeter::CostMeter(const CodecOptions& codec, const Grid& grid, std::uint32_t deltas_per_packet)
-    : CostMeter(make_codec(codec), grid, deltas_per_packet) {}
-
 CostMeter::CostMeter(std::unique_ptr<Codec> codec, const Grid& grid,
                      std::uint32_t deltas_per_packet)
-    : sender_(std::move(codec)),
-      receiver_(sender_->clone()),
+    : codec_(std::move(codec)),
       full_bits_(position::full_bits(grid)),
       deltas_per_packet_(deltas_per_packet),
-      coder_(std::make_unique<entropy::Encoder>(bits_)) {
+      coder_(packet_.bits) {
     if (deltas_per_packet < 1 || deltas_per_packet > most_deltas)
         throw ConfigError(
             fmt::format("{} deltas a packet are outside 1 to {}", deltas_per_packet, most_deltas));
 }
 
-void CostMeter::add(const Sample& sample) {
-    if (sample.starts || !sender_->can_encode(sample.cell)) return full(sample.cell);
+void CostMeter::add(const Sample& sample, std::vector<CodedPositions>& out) {
+    if (sample.starts || !codec_->can_encode(sample.cell)) {
+        close_packet(out);
+        codec_->restart(sample.cell);
+        out.push_back({{sample.cell}, true, {}});
+        ++cost_.fulls;
+        cost_.full_bits += full_bits_;
+        return;
+    }
     if (deltas_per_packet_ == 1)
-        sender_->encode_alone(sample.cell, bits_);
+        codec_->encode_alone(sample.cell, packet_.bits);
     else
-        sender_->encode(sample.cell, *coder_);
-    packet_.push_back(sample.cell);
-    if (packet_.size() == deltas_per_packet_) close_packet();
+        codec_->encode(sample.cell, coder_);
+    packet_.cells.push_back(sample.cell);
+    if (packet_.cells.size() == deltas_per_packet_) close_packet(out);
 }
 
-const Cost& CostMeter::finish() {
-    close_packet();
-    return cost_;
-}
+void CostMeter::finish(std::vector<CodedPositions>& out) { close_packet(out); }
 
-void CostMeter::full(const Cell& cell) {
-    close_packet();
-    sender_->restart(cell);
-    receiver_->restart(cell);
-    ++cost_.fulls;
-    cost_.full_bits += full_bits_;
-}
-
-void CostMeter::close_packet() {
-    if (packet_.empty()) return;
-    if (deltas_per_packet_ > 1) coder_->finish();
-    check_packet();
-    const std::size_t deltas = packet_.size();
-    const std::size_t each = (2 * bits_.size() + deltas) / (2 * deltas);
+void CostMeter::close_packet(std::vector<CodedPositions>& out) {
+    if (packet_.cells.empty()) return;
+    if (deltas_per_packet_ > 1) coder_.finish();
+    const std::size_t deltas = packet_.cells.size(), bits = packet_.bits.size();
+    const std::size_t each = (2 * bits + deltas) / (2 * deltas);
     if (cost_.deltas_by_bits.size() <= each) cost_.deltas_by_bits.resize(each + 1);
     cost_.deltas_by_bits[each] += deltas;
     cost_.deltas += deltas;
-    cost_.delta_bits += bits_.size();
-    ++cost_.packets;
-    bits_.clear();
-    packet_.clear();
+    cost_.delta_bits += bits;
+    out.push_back(packet_);
+    packet_.cells.clear();
+    packet_.bits.clear();
 }
 
-void CostMeter::check_packet() {
-    entropy::BitReader reader(bits_.bytes(), bits_.size());
+void CostCheck::check(const CodedPositions& packet) {
+    if (packet.is_full) return codec_->restart(packet.cells.front());
+    entropy::BitReader reader(packet.bits.bytes(), packet.bits.size());
     entropy::Decoder decoder(reader);
-    const auto next = [&] {
-        return deltas_per_packet_ == 1 ? receiver_->decode_alone(reader)
-                                       : receiver_->decode(decoder);
-    };
     try {
-        for (const Cell& cell : packet_) {
-            if (next() != cell) throw std::logic_error("what was decoded is not what was coded");
+        for (const Cell& cell : packet.cells) {
+            const auto got = alone_ ? codec_->decode_alone(reader) : codec_->decode(decoder);
+            if (got != cell) throw std::logic_error("what was decoded is not what was coded");
         }
     } catch (const DataError& e) {
         throw std::logic_error(std::string("what was coded cannot be decoded: ") + e.what());

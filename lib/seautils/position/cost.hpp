@@ -13,9 +13,8 @@ namespace seautils::position {
 /// What a track takes in one codec: positions coded, not estimated. Headers and checks of packets
 /// are not in it.
 struct Cost {
-    std::uint64_t deltas = 0;  ///< positions that follow from those before
-    std::uint64_t fulls = 0;   ///< at the start, after gaps, and where the codec cannot
-    std::uint64_t packets = 0;
+    std::uint64_t deltas = 0;      ///< positions that follow from those before
+    std::uint64_t fulls = 0;       ///< at the start, after gaps, and where the codec cannot
     std::uint64_t delta_bits = 0;  ///< whole bits of the packets of deltas
     std::uint64_t full_bits = 0;   ///< of all full fixes (grid.hpp)
     /// Deltas by what they take, rounded to whole bits: their packet's bits, shared among them.
@@ -27,35 +26,57 @@ struct Cost {
     std::uint64_t bits_total() const { return delta_bits + full_bits; }
 };
 
-/// Codes a track, decodes it with a second codec as a receiver does, and counts.
+/// Positions in the bits of one codec.
+struct CodedPositions {
+    std::vector<Cell> cells;
+    bool is_full = false;  ///< one, which a receiver is told otherwise: no bits
+    entropy::BitString bits;
+};
+
+/// Codes a track and counts.
 class CostMeter {
 public:
     static constexpr std::uint32_t most_deltas = 1000;
 
     /// @param deltas_per_packet  1: Codec::encode_alone. More share an arithmetic coder and its
-    ///                           ending; the last packet before a full fix holds fewer
-    /// @throws ConfigError  not 1 to most_deltas; as make_codec
-    CostMeter(const CodecOptions& codec, const Grid& grid, std::uint32_t deltas_per_packet);
-    /// The same with a codec of any kind.
+    ///                           ending; the last ones before a full fix are fewer
+    /// @throws ConfigError  not 1 to most_deltas
     CostMeter(std::unique_ptr<Codec> codec, const Grid& grid, std::uint32_t deltas_per_packet);
 
-    /// @throws std::logic_error  what was decoded is not what was coded
-    void add(const Sample& sample);
+    CostMeter(const CostMeter&) = delete;
+    CostMeter& operator=(const CostMeter&) = delete;
+
+    /// Appends what is complete now.
+    void add(const Sample& sample, std::vector<CodedPositions>& out);
     /// The track ends here.
-    const Cost& finish();
+    void finish(std::vector<CodedPositions>& out);
+
+    const Cost& cost() const { return cost_; }
 
 private:
-    void full(const Cell& cell);
-    void close_packet();
-    void check_packet();
+    void close_packet(std::vector<CodedPositions>& out);
 
-    std::unique_ptr<Codec> sender_, receiver_;
+    std::unique_ptr<Codec> codec_;
     unsigned full_bits_;
     std::uint32_t deltas_per_packet_;
-    entropy::BitString bits_;
-    std::unique_ptr<entropy::Encoder> coder_;
-    std::vector<Cell> packet_;  ///< what is in bits_
+    CodedPositions packet_;
+    entropy::Encoder coder_;
     Cost cost_;
+};
+
+/// Decodes what a CostMeter coded, as a receiver would, and compares.
+class CostCheck {
+public:
+    /// @param codec  as the meter's was at the beginning
+    CostCheck(std::unique_ptr<Codec> codec, std::uint32_t deltas_per_packet)
+        : codec_(std::move(codec)), alone_(deltas_per_packet == 1) {}
+
+    /// @throws std::logic_error  it is something else, or takes other bits
+    void check(const CodedPositions& packet);
+
+private:
+    std::unique_ptr<Codec> codec_;
+    bool alone_;
 };
 
 }  // namespace seautils::position
