@@ -16,6 +16,8 @@ struct Fix {
     friend bool operator==(const Fix&, const Fix&) = default;
 };
 
+inline constexpr std::int64_t most_time_ms = (std::int64_t{1} << 43) - 1;
+
 /// What is sent when not everything that is new fits, or arrives.
 enum class LinkMode {
     history,    ///< every position arrives in the end; the newest one never waits for an older one

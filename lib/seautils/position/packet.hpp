@@ -2,6 +2,7 @@
 #define SEAUTILS_POSITION_PACKET_HPP
 
 #include "seautils/entropy/coder.hpp"
+#include "seautils/position/horizon.hpp"
 #include "seautils/position/link_options.hpp"
 
 #include <cstdint>
@@ -50,7 +51,7 @@ enum class PacketKind : std::uint8_t {
 ///                              newest is a full fix if it is not in a window
 ///
 /// Then  gamma(k)  reference: c bits (not from nothing)  and if k > 1: 0 jump, 10 window,
-/// 11 peek gamma(m + 1) with m positions behind the newest; part: gamma(c + 1) reference: c bits
+/// 11 peek gamma(m + 1) with m positions behind the newest; part: gamma(c) reference: c bits
 /// gamma(m). Then positions. A window of one: Codec::encode_alone, or a full fix; all others share
 /// one arithmetic coder. In it, each position of a window or behind a newest one says first whether
 /// it is a full fix (16/65536).

@@ -4,6 +4,7 @@
 #include "seautils/position/codec.hpp"
 #include "seautils/position/horizon.hpp"
 #include "seautils/position/packet.hpp"
+#include "seautils/position/state_bytes.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -66,6 +67,12 @@ private:
     Fix last_;
     std::uint64_t mark_;
 };
+
+void put(StateWriter& out, const Fix& fix);
+void put(StateWriter& out, const Step& step);
+/// @throws DataError  also: beyond the limits of a Cell
+Fix get_fix(StateReader& in);
+Step get_step(StateReader& in);
 
 /// The mark after a step from the state with the mark before.
 std::uint64_t mark_after(std::uint64_t mark, const Step& step);
