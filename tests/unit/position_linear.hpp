@@ -14,7 +14,7 @@
 namespace seautils::position {
 
 /// Rice codes of the difference from linear extrapolation, the parameter from the mean of those
-/// before. A difference of more than 2000 it cannot code.
+/// before; 16 ones mean 13 bits. A difference of more than 2000 it cannot code.
 class LinearCodec : public Codec {
 public:
     std::unique_ptr<Codec> clone() const override { return std::make_unique<LinearCodec>(*this); }
@@ -82,14 +82,16 @@ private:
     }
     static void put(std::int64_t value, unsigned width, entropy::Encoder& out) {
         const auto code = static_cast<std::uint64_t>(value < 0 ? -2 * value - 1 : 2 * value);
-        for (std::uint64_t k = code >> width; k > 0; --k) out.bit(true, 32768);
-        out.bit(false, 32768);
-        for (unsigned k = width; k > 0; --k) out.bit((code >> (k - 1) & 1) != 0, 32768);
+        const std::uint64_t ones = code >> width;
+        for (std::uint64_t k = 0; k < std::min<std::uint64_t>(ones, 16); ++k) out.bit(true, 32768);
+        if (ones < 16) out.bit(false, 32768);
+        for (unsigned k = ones < 16 ? width : 13; k > 0; --k)
+            out.bit((code >> (k - 1) & 1) != 0, 32768);
     }
     static std::int64_t get(unsigned width, entropy::Decoder& in) {
         std::uint64_t code = 0;
-        while (in.bit(32768))
-            if (++code > 5000) throw DataError("too far off");
+        while (code < 16 && in.bit(32768)) ++code;
+        if (code == 16) code = 0, width = 13;
         for (; width > 0; --width) code = code * 2 + (in.bit(32768) ? 1 : 0);
         const auto half = static_cast<std::int64_t>(code / 2);
         return code % 2 == 1 ? -half - 1 : half;

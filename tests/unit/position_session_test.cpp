@@ -80,7 +80,7 @@ struct Story {
 };
 
 /// What may go wrong at either end goes wrong now and then.
-void restart_some(Link& link, SplitMix64& random, const LinkOptions& options) {
+void restart_some(Link& link, SplitMix64& random) {
     const bool keeps = random.below(2) == 0;
     if (random.below(40) == 0) {
         const std::string state = link.sender.save();
@@ -92,10 +92,9 @@ void restart_some(Link& link, SplitMix64& random, const LinkOptions& options) {
         link.forget_receiver();
         if (keeps) link.receiver.load(state);
     }
-    (void)options;
 }
 
-void play(Link& link, const LinkOptions& options, const Story& story, std::uint64_t seed) {
+void play(Link& link, const Story& story, std::uint64_t seed) {
     Walk walk(seed);
     SplitMix64& random = walk.random();
     Water down(random, story.loss_percent, story.is_rough);
@@ -108,7 +107,7 @@ void play(Link& link, const LinkOptions& options, const Story& story, std::uint6
         if (story.has_gaps && random.below(20) == 0)
             cell.x = -cell.x / 2 + 5000;  // cannot be coded
         link.sample({time_ms, cell});
-        if (story.restarts) restart_some(link, random, options);
+        if (story.restarts) restart_some(link, random);
         if (const auto packet = link.sender.packet(story.max_bytes)) {
             ASSERT_LE(packet->bytes.size(), story.max_bytes);
             down.put(packet->bytes);
@@ -131,7 +130,7 @@ TEST(PositionSession, EverythingArrivesOnAPerfectLink) {
     for (const LinkMode mode : {LinkMode::history, LinkMode::newest, LinkMode::automatic}) {
         const LinkOptions options = options_for(mode);
         Link link(options);
-        play(link, options, {mode}, 1);
+        play(link, {mode}, 1);
         EXPECT_EQ(link.wrong, 0U);
         EXPECT_EQ(link.arrived.size(), link.sampled.size());
         EXPECT_EQ(link.sender.pending(), 0U);
@@ -155,17 +154,17 @@ RC_GTEST_PROP(PositionSession, WhatIsDecodedIsWhatWasSampled, ()) {
     story.restarts = *rc::gen::arbitrary<bool>();
     const LinkOptions options = options_for(story.mode);
     Link link(options);
-    play(link, options, story, *rc::gen::arbitrary<std::uint64_t>());
+    play(link, story, *rc::gen::arbitrary<std::uint64_t>());
     RC_ASSERT(link.wrong == 0U);
 }
 
 RC_GTEST_PROP(PositionSession, HistoryArrivesWholeAndOnce, ()) {
     Story story = any_story();
     story.mode = LinkMode::history;
-    story.max_bytes = std::max<std::size_t>(story.max_bytes, 24);
+    story.max_bytes = std::max(story.max_bytes, least_bytes(options_for(story.mode)));
     const LinkOptions options = options_for(story.mode);
     Link link(options);
-    play(link, options, story, *rc::gen::arbitrary<std::uint64_t>());
+    play(link, story, *rc::gen::arbitrary<std::uint64_t>());
     settle(link, story.max_bytes, 4 * story.samples + 40);
     RC_ASSERT(link.sender.pending() == 0U);
     RC_ASSERT(link.arrived.size() == link.sampled.size());
@@ -179,10 +178,10 @@ RC_GTEST_PROP(PositionSession, ALinkMendsAfterRestarts, ()) {
     Story story = any_story();
     story.mode = LinkMode::history;
     story.restarts = true;
-    story.max_bytes = std::max<std::size_t>(story.max_bytes, 24);
+    story.max_bytes = std::max(story.max_bytes, least_bytes(options_for(story.mode)));
     const LinkOptions options = options_for(story.mode);
     Link link(options);
-    play(link, options, story, *rc::gen::arbitrary<std::uint64_t>());
+    play(link, story, *rc::gen::arbitrary<std::uint64_t>());
     Walk walk(7);
     const std::int64_t from = link.sampled.rbegin()->first + 5 * interval_ms;
     for (int n = 0; n < 10; ++n) link.sample({from + n * interval_ms, walk.next()});

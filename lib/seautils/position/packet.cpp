@@ -193,6 +193,18 @@ Fix get_full(std::int64_t expected_ms, const LinkOptions& options, entropy::Deco
     return fix;
 }
 
+std::size_t least_bytes(const LinkOptions& options) {
+    const Cell &a = options.least, &b = options.most;
+    const auto axis = [](std::int32_t least, std::int32_t most) {
+        return width_of(static_cast<std::uint64_t>(most - least));
+    };
+    constexpr unsigned header = 3 + version_bits + start_bits + 2 * ack_bits;
+    constexpr unsigned time = length_bits + start_bits + 2;
+    constexpr unsigned marked = 12 + 2;  // that it is full among others, and the coder's ending
+    const unsigned bits = header + time + marked + axis(a.x, b.x) + axis(a.y, b.y) + axis(a.z, b.z);
+    return (bits + 7) / 8 + options.check_bits / 8;
+}
+
 std::string seal(const entropy::BitString& bits, std::uint64_t seed, unsigned check_bits) {
     std::string bytes = bits.bytes();
     const std::uint64_t check = check_of(bytes, seed, check_bits);

@@ -81,6 +81,10 @@ void put_full(const Fix& fix, std::int64_t expected_ms, const LinkOptions& optio
 /// @throws DataError  as above, or outside of the area
 Fix get_full(std::int64_t expected_ms, const LinkOptions& options, entropy::Decoder& in);
 
+/// Bytes in which any position fits as a full fix, whatever the time and the header: packets of fewer
+/// may never carry some position. 26 with the default options.
+std::size_t least_bytes(const LinkOptions& options);
+
 /// Fills the bits with zeros so that the check ends with the last byte, and puts it.
 /// @param seed  what the receiver must have learnt (TrackState::mark()), or for a start agreed()
 std::string seal(const entropy::BitString& bits, std::uint64_t seed, unsigned check_bits);

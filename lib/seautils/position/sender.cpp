@@ -311,7 +311,7 @@ void Sender::Impl::moved(std::uint64_t number) {
         pending.pop_front();
         ++first;
     }
-    arriving += all_arrives / 16;
+    arriving = std::min(arriving + all_arrives / 16, all_arrives);
 }
 
 bool Sender::Impl::advance(const Ack& ack, std::string_view bytes) {
@@ -383,7 +383,7 @@ void Sender::Impl::load(std::string_view state) {
     first = in.number(most);
     newest_sent = in.number(most);
     dropped = in.number();
-    const std::uint64_t flags = in.number(std::uint64_t{all_arrives} * 8);
+    const std::uint64_t flags = in.number(std::uint64_t{all_arrives} * 4 + 3);
     arriving = static_cast<std::uint32_t>(flags / 4);
     is_newest = options.mode == LinkMode::newest ||
                 (options.mode == LinkMode::automatic && (flags & 1) != 0);
