@@ -55,19 +55,18 @@ public:
         last_ = to;
     }
     std::string save() const override {
-        StateWriter out;
-        out.number(1);
+        StateWriter out(1);
         for (const auto* list : {&last_, &before_, &mean_})
-            for (const std::int64_t v : *list) out.signed_number(v);
-        return out.sealed();
+            for (const std::int64_t v : *list) out.number(v);
+        return out.finish();
     }
     void load(std::string_view state) override {
-        StateReader in(state);
-        if (in.number() != 1) throw DataError("another version");
+        StateReader in(state, 1);
         LinearCodec next;
         for (auto* list : {&next.last_, &next.before_, &next.mean_})
-            for (std::int64_t& v : *list) v = in.number_near(std::int64_t{1} << 32);
-        in.end();
+            for (std::int64_t& v : *list)
+                v = in.number(-(std::int64_t{1} << 32), std::int64_t{1} << 32);
+        in.finish();
         *this = next;
     }
 

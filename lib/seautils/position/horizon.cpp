@@ -13,10 +13,10 @@ namespace seautils::position {
 
 namespace {
 
-constexpr std::uint64_t state_version = 1;
+constexpr std::uint8_t state_version = 1;
 constexpr std::array<std::uint32_t, 11> classes{2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 constexpr std::size_t axes = 3, predictors = 3, buckets = 20, contexts = 4;
-constexpr std::size_t most_known = 64;
+constexpr std::int64_t most_known = 64;
 constexpr std::int64_t unit = 256;  // of velocities and scales
 
 /// How likely one of two is, learnt by counting.
@@ -246,7 +246,7 @@ void AdaptiveHorizon::learn_ahead(std::uint32_t ahead, const Cell& cell) {
         next.slow[axis] += is_second ? speed - next.slow[axis] : (speed - next.slow[axis]) / 6;
     }
     known_.push_back(next);
-    while (known_.size() > most_known || number - known_.front().number > classes.back())
+    while (std::ssize(known_) > most_known || number - known_.front().number > classes.back())
         known_.pop_front();
 }
 
@@ -267,57 +267,52 @@ Cell AdaptiveHorizon::decode(std::uint32_t ahead, entropy::Decoder& in) const {
 }
 
 std::string AdaptiveHorizon::save() const {
-    StateWriter out;
-    out.number(state_version);
-    out.number(known_.size());
+    StateWriter out(state_version);
+    out.number(static_cast<std::int64_t>(known_.size()));
     for (const Known& k : known_) {
-        out.number(k.number);
+        out.number(static_cast<std::int64_t>(k.number));
         for (const Triple* t : {&k.at, &k.fast, &k.slow})
-            for (const std::int64_t v : *t) out.signed_number(v);
+            for (const std::int64_t v : *t) out.number(v);
     }
-    const auto put = [&out](const Chance& c) { out.number(c.one * 65536U + c.seen); };
+    const auto put = [&out](const Chance& c) { out.number(c.one * std::int64_t{65536} + c.seen); };
     for (const Class& of : of_) {
         for (const auto& axis : of.error)
-            for (const std::int64_t v : axis) out.signed_number(v);
+            for (const std::int64_t v : axis) out.number(v);
         for (const auto& axis : of.beyond)
             for (const auto& context : axis)
                 for (const Chance& c : context) put(c);
         for (const auto& axis : of.back)
             for (const Chance& c : axis) put(c);
     }
-    return out.sealed();
+    return out.finish();
 }
 
 void AdaptiveHorizon::load(std::string_view state) {
     constexpr std::int64_t far = std::int64_t{cell_limit} * 2 * unit;
-    StateReader in(state);
-    if (in.number() != state_version) throw DataError("state of a horizon of another version");
+    StateReader in(state, state_version);
     AdaptiveHorizon next;
-    next.known_.resize(static_cast<std::size_t>(in.number(most_known)));
-    if (next.known_.empty()) throw DataError("state is cut or damaged");
-    std::uint64_t last = 0;
+    next.known_.resize(static_cast<std::size_t>(in.number(1, most_known)));
+    std::int64_t last = -1;
     for (Known& k : next.known_) {
-        k.number = in.number(std::uint64_t{1} << 62);
-        if (&k != &next.known_.front() && k.number <= last)
-            throw DataError("state is cut or damaged");
-        last = k.number;
+        last = in.number(last + 1, std::int64_t{1} << 62);
+        k.number = static_cast<std::uint64_t>(last);
         for (Triple* t : {&k.at, &k.fast, &k.slow})
-            for (std::int64_t& v : *t) v = in.number_near(far);
+            for (std::int64_t& v : *t) v = in.number(-far, far);
     }
     const auto get = [&in](Chance& c) {
-        const std::uint64_t both = in.number(0xFFFF'FFFF);
+        const std::int64_t both = in.number(0, 0xFFFF'FFFF);
         c = {static_cast<std::uint16_t>(both >> 16), static_cast<std::uint16_t>(both & 0xFFFF)};
     };
     for (Class& of : next.of_) {
         for (auto& axis : of.error)
-            for (std::int64_t& v : axis) v = in.number_near(far * 64);
+            for (std::int64_t& v : axis) v = in.number(0, far * 64);
         for (auto& axis : of.beyond)
             for (auto& context : axis)
                 for (Chance& c : context) get(c);
         for (auto& axis : of.back)
             for (Chance& c : axis) get(c);
     }
-    in.end();
+    in.finish();
     *this = std::move(next);
 }
 

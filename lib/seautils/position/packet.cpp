@@ -2,6 +2,7 @@
 
 #include "seautils/core/error.hpp"
 #include "seautils/core/random.hpp"
+#include "seautils/position/hash.hpp"
 #include "seautils/position/state_bytes.hpp"
 
 #include <fmt/format.h>
@@ -251,17 +252,16 @@ std::uint32_t digest(std::string_view packet) {
 }
 
 std::uint64_t agreed(const LinkOptions& options) {
-    StateWriter all;
-    all.number(packet_version);
-    all.signed_number(options.interval_ms);
+    StateWriter all(packet_version);
+    all.number(options.interval_ms);
     for (const Cell& corner : {options.least, options.most}) {
-        all.signed_number(corner.x);
-        all.signed_number(corner.y);
-        all.signed_number(corner.z);
+        all.number(corner.x);
+        all.number(corner.y);
+        all.number(corner.z);
     }
     all.number(options.check_bits);
-    all.number(options.agreed);
-    return hash(all.sealed(), 0);
+    all.number(static_cast<std::int64_t>(options.agreed));
+    return hash(all.finish(), 0);
 }
 
 void check(const LinkOptions& options) {

@@ -13,7 +13,7 @@ namespace seautils::position {
 
 namespace {
 
-constexpr std::uint64_t state_version = 1;
+constexpr std::uint8_t state_version = 1;
 constexpr unsigned patience = 8;            ///< packets that cannot be decoded, in a row
 constexpr std::size_t most_ended = 16;      ///< sessions remembered
 constexpr std::size_t most_nodes = 65'536;  ///< positions after the reference, by any way
@@ -268,51 +268,48 @@ Arrival Receiver::Impl::packet(std::string_view bytes) {
 }
 
 std::string Receiver::Impl::save() const {
-    StateWriter out;
-    out.number(state_version);
-    out.number(agreed(options));
+    StateWriter out(state_version);
+    put_word(out, agreed(options));
     out.number(failures);
-    out.number(ended.size());
-    for (const std::int64_t session : ended) out.signed_number(session);
+    out.number(static_cast<std::int64_t>(ended.size()));
+    for (const std::int64_t session : ended) out.number(session);
     out.number(base ? 1 : 0);
     if (base) out.text(base->save());
-    out.number(nodes.size());
+    out.number(static_cast<std::int64_t>(nodes.size()));
     for (const Node& node : nodes) {
         put(out, node.step);
-        out.number(static_cast<std::uint64_t>(node.parent + 1));
+        out.number(node.parent + 1);
         out.number(node.is_acked ? 1 : 0);
     }
-    out.number(told.size());
-    for (const std::uint64_t number : told) out.number(number);
-    return out.sealed();
+    out.number(static_cast<std::int64_t>(told.size()));
+    for (const std::uint64_t number : told) put_word(out, number);
+    return out.finish();
 }
 
 void Receiver::Impl::load(std::string_view state) {
-    StateReader in(state);
-    const std::uint64_t version = in.number();
-    if (version != state_version)
-        throw DataError(fmt::format("state of version {}, not {}", version, state_version));
-    if (in.number() != agreed(options)) throw DataError("state is of other options");
-    failures = static_cast<unsigned>(in.number(patience));
-    for (std::uint64_t n = in.number(most_ended); n > 0; --n)
-        ended.push_back(in.number_near(most_time_ms));
-    if (in.number(1) == 1) {
+    StateReader in(state, state_version);
+    if (get_word(in) != agreed(options)) throw DataError("state is of other options");
+    failures = static_cast<unsigned>(in.number(0, patience));
+    for (std::int64_t n = in.number(0, std::int64_t{most_ended}); n > 0; --n)
+        ended.push_back(in.number(0, most_time_ms));
+    if (in.number(0, 1) == 1) {
         base.emplace(options, *codec, *horizon, 0);
         base->load(in.text());
     }
-    const std::uint64_t count = in.number(base ? most_nodes : 0);
-    for (std::uint64_t n = 0; n < count; ++n) {
+    const std::int64_t count = in.number(0, base ? std::int64_t{most_nodes} : 0);
+    for (std::int64_t n = 0; n < count; ++n) {
         Node node{get_step(in)};
-        node.parent = static_cast<std::int64_t>(in.number(n)) - 1;
-        node.is_acked = in.number(1) == 1;
+        node.parent = in.number(0, n) - 1;
+        node.is_acked = in.number(0, 1) == 1;
         const bool is_first = node.parent < 0;
         const Node* parent = is_first ? nullptr : &nodes[static_cast<std::size_t>(node.parent)];
         node.number = (is_first ? base->number() : parent->number) + node.step.ahead;
         node.mark = mark_after(is_first ? base->mark() : parent->mark, node.step);
         nodes.push_back(node);
     }
-    for (std::uint64_t n = in.number(2 * most_nodes); n > 0; --n) told.insert(in.number());
-    in.end();
+    for (std::int64_t n = in.number(0, std::int64_t{2} * most_nodes); n > 0; --n)
+        told.insert(get_number(in));
+    in.finish();
 }
 
 Receiver::Receiver(const LinkOptions& options, const Codec& codec, const Horizon& horizon) {

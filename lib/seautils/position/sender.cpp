@@ -10,7 +10,7 @@ namespace seautils::position {
 
 namespace {
 
-constexpr std::uint64_t state_version = 1;
+constexpr std::uint8_t state_version = 1;
 constexpr std::size_t most_digests = 256;
 /// Of acknowledgements per packet, in 1/65536; each packet moves it by a sixteenth.
 constexpr std::uint32_t all_arrives = 65'536, few_arrive = all_arrives / 3,
@@ -353,58 +353,53 @@ Sender::Heard Sender::Impl::acknowledge(std::string_view bytes) {
 }
 
 std::string Sender::Impl::save() const {
-    StateWriter out;
-    out.number(state_version);
-    out.number(agreed(options));
-    out.number(first);
-    out.number(newest_sent);
-    out.number(dropped);
-    out.number(arriving * 4U + (is_newest ? 1 : 0) + (is_part_due ? 2 : 0));
-    out.number(pending.size());
+    StateWriter out(state_version);
+    put_word(out, agreed(options));
+    put_word(out, first);
+    put_word(out, newest_sent);
+    put_word(out, dropped);
+    out.number(arriving * std::int64_t{4} + (is_newest ? 1 : 0) + (is_part_due ? 2 : 0));
+    out.number(std::ssize(pending));
     for (const Fix& fix : pending) put(out, fix);
     out.number(known ? 1 : 0);
     if (known) out.text(known->save());
-    out.number(steps.size());
-    out.number(jumps.size());
-    for (const Sent& sent : steps) put(out, sent.step), out.number(sent.mark);
-    for (const Sent& sent : jumps) put(out, sent.step), out.number(sent.mark);
-    out.number(digests.size());
+    out.number(std::ssize(steps));
+    out.number(std::ssize(jumps));
+    for (const Sent& sent : steps) put(out, sent.step), put_word(out, sent.mark);
+    for (const Sent& sent : jumps) put(out, sent.step), put_word(out, sent.mark);
+    out.number(std::ssize(digests));
     for (const std::uint32_t d : digests) out.number(d);
-    return out.sealed();
+    return out.finish();
 }
 
 void Sender::Impl::load(std::string_view state) {
-    constexpr std::uint64_t most = std::uint64_t{1} << 62;
-    StateReader in(state);
-    const std::uint64_t version = in.number();
-    if (version != state_version)
-        throw DataError(fmt::format("state of version {}, not {}", version, state_version));
-    if (in.number() != agreed(options)) throw DataError("state is of other options");
-    first = in.number(most);
-    newest_sent = in.number(most);
-    dropped = in.number();
-    const std::uint64_t flags = in.number(std::uint64_t{all_arrives} * 4 + 3);
+    StateReader in(state, state_version);
+    if (get_word(in) != agreed(options)) throw DataError("state is of other options");
+    first = get_number(in);
+    newest_sent = get_number(in);
+    dropped = get_number(in);
+    const std::int64_t flags = in.number(0, std::int64_t{all_arrives} * 4 + 3);
     arriving = static_cast<std::uint32_t>(flags / 4);
     is_newest = options.mode == LinkMode::newest ||
                 (options.mode == LinkMode::automatic && (flags & 1) != 0);
     is_part_due = (flags & 2) != 0;
-    for (std::uint64_t n = in.number(options.most_pending + 1); n > 0; --n)
+    for (std::int64_t n = in.number(0, static_cast<std::int64_t>(options.most_pending)); n > 0; --n)
         pending.push_back(get_fix(in));
-    if (in.number(1) == 1) {
+    if (in.number(0, 1) == 1) {
         known.emplace(options, *codec, *horizon, 0);
         known->load(in.text());
     }
-    const std::uint64_t step_count = in.number(most_count);
-    const std::uint64_t jump_count = in.number(most_count);
+    const std::int64_t step_count = in.number(0, most_count);
+    const std::int64_t jump_count = in.number(0, most_count);
     const auto get = [&in] {
         const Step step = get_step(in);
-        return Sent{step, in.number()};
+        return Sent{step, get_word(in)};
     };
-    for (std::uint64_t n = 0; n < step_count; ++n) steps.push_back(get());
-    for (std::uint64_t n = 0; n < jump_count; ++n) jumps.push_back(get());
-    for (std::uint64_t n = in.number(most_digests); n > 0; --n)
-        digests.push_back(static_cast<std::uint32_t>(in.number(most_ahead)));
-    in.end();
+    for (std::int64_t n = 0; n < step_count; ++n) steps.push_back(get());
+    for (std::int64_t n = 0; n < jump_count; ++n) jumps.push_back(get());
+    for (std::int64_t n = in.number(0, std::int64_t{most_digests}); n > 0; --n)
+        digests.push_back(static_cast<std::uint32_t>(in.number(0, most_ahead)));
+    in.finish();
     const bool is_whole = known
                               ? first > known->number() && newest() - known->number() <= most_ahead
                               : pending.empty();

@@ -3,9 +3,13 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/random.hpp"
 
+#include <limits>
+
 namespace seautils::position {
 
 namespace {
+
+constexpr std::uint8_t state_version = 1;
 
 /// Of a full fix where others are usual, in 1/65536: costs those 0.00035 bit.
 constexpr std::uint32_t full_chance = 16;
@@ -33,20 +37,33 @@ std::uint64_t mark_after(std::uint64_t mark, const Step& step) {
     return splitmix64(mark ^ static_cast<std::uint64_t>(step.fix.time_ms));
 }
 
+void put_word(StateWriter& out, std::uint64_t word) { out.number(static_cast<std::int64_t>(word)); }
+
+std::uint64_t get_word(StateReader& in) {
+    using Limits = std::numeric_limits<std::int64_t>;
+    return static_cast<std::uint64_t>(in.number(Limits::min(), Limits::max()));
+}
+
+std::uint64_t get_number(StateReader& in) {
+    return static_cast<std::uint64_t>(in.number(0, std::int64_t{1} << 62));
+}
+
 void put(StateWriter& out, const Fix& fix) {
-    out.signed_number(fix.time_ms);
-    for (const std::int32_t v : {fix.cell.x, fix.cell.y, fix.cell.z}) out.signed_number(v);
+    out.number(fix.time_ms);
+    for (const std::int32_t v : {fix.cell.x, fix.cell.y, fix.cell.z}) out.number(v);
 }
 
 void put(StateWriter& out, const Step& step) {
-    out.number(std::uint64_t{step.ahead} * 2 + (step.is_full ? 1 : 0));
+    out.number(std::int64_t{step.ahead} * 2 + (step.is_full ? 1 : 0));
     put(out, step.fix);
 }
 
 Fix get_fix(StateReader& in) {
-    const auto axis = [&in] { return static_cast<std::int32_t>(in.number_near(cell_limit)); };
+    const auto axis = [&in] {
+        return static_cast<std::int32_t>(in.number(-cell_limit, cell_limit));
+    };
     Fix fix;
-    fix.time_ms = in.number_near(most_time_ms);
+    fix.time_ms = in.number(-most_time_ms, most_time_ms);
     fix.cell.x = axis();
     fix.cell.y = axis();
     fix.cell.z = axis();
@@ -54,7 +71,7 @@ Fix get_fix(StateReader& in) {
 }
 
 Step get_step(StateReader& in) {
-    const std::uint64_t first = in.number(std::uint64_t{most_ahead} * 2 + 1);
+    const std::int64_t first = in.number(0, std::int64_t{most_ahead} * 2 + 1);
     const Fix fix = get_fix(in);
     return {static_cast<std::uint32_t>(first / 2), first % 2 == 1, fix};
 }
@@ -197,28 +214,26 @@ Step TrackState::decode_peek(std::uint32_t ahead, bool is_full, entropy::Decoder
 }
 
 std::string TrackState::save() const {
-    StateWriter out;
-    out.number(agreed(*options_));
-    out.signed_number(start_ms_);
-    out.number(number_);
-    out.number(mark_);
+    StateWriter out(state_version);
+    out.number(start_ms_);
+    put_word(out, number_);
+    put_word(out, mark_);
     put(out, last_);
     out.text(codec_->save());
     out.text(horizon_->save());
-    return out.sealed();
+    return out.finish();
 }
 
 void TrackState::load(std::string_view state) {
-    StateReader in(state);
+    StateReader in(state, state_version);
     TrackState next(*this);
-    if (in.number() != agreed(*options_)) throw DataError("state is of other options");
-    next.start_ms_ = static_cast<std::int64_t>(in.number(most_time_ms));
-    next.number_ = in.number(std::uint64_t{1} << 62);
-    next.mark_ = in.number();
+    next.start_ms_ = in.number(0, most_time_ms);
+    next.number_ = get_number(in);
+    next.mark_ = get_word(in);
     next.last_ = get_fix(in);
     next.codec_->load(in.text());
     next.horizon_->load(in.text());
-    in.end();
+    in.finish();
     *this = std::move(next);
 }
 

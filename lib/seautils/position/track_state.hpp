@@ -68,6 +68,10 @@ private:
     std::uint64_t mark_;
 };
 
+/// Any 64 bits. (A number of a position: get_number() refuses what would overflow.)
+void put_word(StateWriter& out, std::uint64_t word);
+std::uint64_t get_word(StateReader& in);
+std::uint64_t get_number(StateReader& in);
 void put(StateWriter& out, const Fix& fix);
 void put(StateWriter& out, const Step& step);
 /// @throws DataError  also: beyond the limits of a Cell
