@@ -1,5 +1,5 @@
 seautils_module(NAME position
   SOURCES codec.cpp mixture.cpp track_filter.cpp analogs.cpp mixer.cpp motion.cpp predictors.cpp
     value_coder.cpp mix_model.cpp mix_codec.cpp joint_code.cpp state_bytes.cpp
-    hash.cpp horizon.cpp packet.cpp receiver.cpp sender.cpp track_state.cpp
+    hash.cpp horizon.cpp packet.cpp receiver.cpp sender.cpp simulation.cpp track_state.cpp
   DEPENDS core entropy LINK fmt::fmt)
