@@ -78,7 +78,7 @@ schemas, manual pages, examples and shell completion.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libseautils-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS seautils)
-set(needed libboost-program-options-dev libcli11-dev libcrypto++-dev libfmt-dev liblua5.3-dev
+set(needed libboost-program-options-dev libcli11-dev libcrypto++-dev libfmt-dev libgeographiclib-dev liblua5.3-dev
     libprotobuf-dev libprotoc-dev libpugixml-dev libsimdjson-dev libsqlite3-dev pkgconf)
 list(JOIN needed ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 set(CPACK_COMPONENT_DEV_DESCRIPTION

@@ -21,10 +21,16 @@ namespace seautils::cli {
 
 struct App::Impl {
     Impl(const std::string& name, const std::string& summary, std::string shell, Options options)
-        : app(summary, name), examples(std::move(shell)), shared(options), messages(name) {}
+        : app(summary, name),
+          tool(name.substr(0, name.find(' '))),
+          examples(std::move(shell)),
+          shared(options),
+          messages(tool) {}
 
     CLI::App app;
+    std::string tool;  ///< its name, without that of a command
     std::string examples;
+    std::vector<CommandHelp> commands;
     Options shared;
     Messages messages;
     Settings settings;
@@ -117,7 +123,7 @@ CLI::App& App::options() { return impl_->app; }
 
 void App::Impl::add_common() {
     app.set_help_flag("-h,--help", "Show this help");
-    app.set_version_flag("-V,--version", app.get_name() + " (seautils) " SEAUTILS_VERSION,
+    app.set_version_flag("-V,--version", tool + " (seautils) " SEAUTILS_VERSION,
                          "Show the version");
     app.add_flag("-q,--quiet", quiet, "Errors only");
     app.add_flag("-v,--verbose", verbose, "Say more");
@@ -185,6 +191,8 @@ void App::output_formats(std::vector<std::string> names) {
 }
 
 void App::config_sections(ConfigSections sections) { impl_->sections = std::move(sections); }
+
+void App::commands(std::vector<CommandHelp> list) { impl_->commands = std::move(list); }
 
 void App::Impl::parse(int argc, char** argv) {
     // CLI11 would take the word behind `--name=` for the value.
@@ -344,7 +352,7 @@ int App::main(int argc, char** argv, const std::function<void(Io&)>& body) {
             a.check_values();
             a.apply_config(argc, argv);
         } catch (const CLI::CallForHelp&) {
-            return print(help_text(a.app, a.examples));
+            return print(help_text(a.app, a.examples, a.commands));
         } catch (const CLI::CallForVersion&) {
             return print(a.app.version() + "\n");
         }

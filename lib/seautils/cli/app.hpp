@@ -24,10 +24,16 @@ struct Options {
     bool seed = false;   ///< --seed
 };
 
+/// A command of a tool that has several (commands.hpp).
+struct CommandHelp {
+    std::string name, summary;
+};
+
 /// What all tools share: the common options, `tool: file:line: what` messages, the statuses, the
 /// default action of SIGPIPE, and the check of standard output when it is closed.
 class App {
 public:
+    /// @param name      of the tool, or `TOOL COMMAND`: messages are TOOL's
     /// @param summary   one sentence, first in --help
     /// @param examples  lines of shell, last in --help, each with its line end
     App(const std::string& name, const std::string& summary, const std::string& examples,
@@ -46,6 +52,9 @@ public:
 
     /// Takes sections of the configuration file, after the options.
     void config_sections(ConfigSections sections);
+
+    /// Has --help name the commands of the tool (commands.hpp).
+    void commands(std::vector<CommandHelp> list);
 
     /// Parses, runs `body`, flushes and checks standard output, and returns the exit status:
     /// exceptions become a message and their status; 1 where a record was refused.

@@ -97,13 +97,25 @@ std::string value_fault(const CLI::App& app, const CLI::ParseError& error) {
     return "option " + tamed(text);
 }
 
+std::string command_list(const std::string& tool, const std::vector<CommandHelp>& commands) {
+    if (commands.empty()) return {};
+    std::string text = "\n\nCommands (" + tool + " COMMAND --help says more):";
+    for (const CommandHelp& command : commands) {
+        std::string line = "  " + command.name;
+        line.resize(text_column, ' ');
+        text += '\n' + line + wrapped(command.summary, text_column);
+    }
+    return text;
+}
+
 bool is_positional(const CLI::Option& option) {
     return option.get_snames().empty() && option.get_lnames().empty();
 }
 
 }  // namespace
 
-std::string help_text(const CLI::App& app, const std::string& examples) {
+std::string help_text(const CLI::App& app, const std::string& examples,
+                      const std::vector<CommandHelp>& commands) {
     std::string files;
     std::string options;
     for (const CLI::Option* option : app.get_options()) {
@@ -113,9 +125,12 @@ std::string help_text(const CLI::App& app, const std::string& examples) {
         else
             options += option_line(*option);
     }
-    return app.get_description() + "\n\nUsage: " + app.get_name() + " [OPTION]..." + files +
+    const std::string name = app.get_name();
+    const std::string usage =
+        commands.empty() ? name + " [OPTION]..." + files : name + " COMMAND [OPTION]... [FILE]...";
+    return app.get_description() + "\n\nUsage: " + usage + command_list(name, commands) +
            "\n\nOptions:\n" + options + "\nExamples:\n" + examples + "\nThe manual: man " +
-           app.get_name() + "\n";
+           name.substr(0, name.find(' ')) + "\n";
 }
 
 std::string parse_fault(const CLI::App& app, const CLI::ParseError& error) {

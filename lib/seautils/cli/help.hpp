@@ -1,6 +1,7 @@
 #ifndef SEAUTILS_CLI_HELP_HPP
 #define SEAUTILS_CLI_HELP_HPP
 
+#include "seautils/cli/app.hpp"
 #include "seautils/cli/config_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -10,9 +11,10 @@
 
 namespace seautils::cli {
 
-/// What --help prints: the sentence, the usage, the options, the examples, where the manual is. No
+/// What --help prints: the sentence, the usage, the commands, the options, the examples, where the manual is. No
 /// line is longer than 100 columns where no word is.
-std::string help_text(const CLI::App& app, const std::string& examples);
+std::string help_text(const CLI::App& app, const std::string& examples,
+                      const std::vector<CommandHelp>& commands);
 
 /// What went wrong with a command line, in one line without the tool's name.
 std::string parse_fault(const CLI::App& app, const CLI::ParseError& error);

@@ -84,6 +84,12 @@ public:
         emit(interval_.low >= quarter, put);
     }
 
+    /// Bits that finish() would put now.
+    std::uint64_t ending_bits() const {
+        if (interval_.low == 0 && interval_.high == top && pending_ == 0) return 0;
+        return pending_ + (interval_.low == 0 || interval_.high == top ? 1 : 2);
+    }
+
 private:
     template <class PutBit>
     void emit(bool bit, PutBit&& put) {

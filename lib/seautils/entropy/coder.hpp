@@ -24,6 +24,8 @@ public:
     void bit(bool bit, std::uint32_t one) {
         symbol(bit ? Counts::Part{0, one} : Counts::Part{one, 65536 - one}, 65536);
     }
+    /// Bits that finish() would put now, exactly: so that what still fits can be known beforehand.
+    std::size_t ending_bits() const { return static_cast<std::size_t>(coder_.ending_bits()); }
     /// The encoder begins anew.
     void finish() {
         coder_.finish(put());

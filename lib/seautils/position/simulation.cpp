@@ -1,0 +1,127 @@
+#include "seautils/position/simulation.hpp"
+
+#include "seautils/core/error.hpp"
+#include "seautils/core/random.hpp"
+#include "seautils/position/receiver.hpp"
+#include "seautils/position/sender.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace seautils::position {
+
+namespace {
+
+/// Chance, in the order in which it is asked.
+class Water {
+public:
+    explicit Water(const Losses& losses) : losses_(losses), random_(losses.seed) {
+        for (const double loss : {losses.packet, losses.ack})
+            if (!(loss >= 0 && loss < 1))
+                throw ConfigError(fmt::format("loss {} is outside 0 to below 1", loss));
+    }
+    bool loses_packet() { return random_.uniform() < losses_.packet; }
+    bool loses_ack() { return random_.uniform() < losses_.ack; }
+
+private:
+    Losses losses_;
+    SplitMix64 random_;
+};
+
+/// The mean age of the newest position that has arrived.
+class Age {
+public:
+    void newest(std::size_t number) { known_ = std::max(known_, number); }
+    void slot(std::size_t number) {
+        if (known_ == 0) return;
+        sum_ += static_cast<double>(number - known_);
+        ++slots_;
+    }
+    double mean() const { return slots_ == 0 ? 0 : sum_ / static_cast<double>(slots_); }
+
+private:
+    std::size_t known_ = 0, slots_ = 0;
+    double sum_ = 0;
+};
+
+}  // namespace
+
+LinkCost simulate_full(double full_bits, const Losses& losses, std::size_t slots) {
+    Water water(losses);
+    Age age;
+    for (std::size_t n = 1; n <= slots; ++n) {
+        if (!water.loses_packet()) age.newest(n);
+        age.slot(n);
+    }
+    return {full_bits, age.mean(), true};
+}
+
+LinkCost simulate_arq(double delta_bits, double packet_bits, const Losses& losses,
+                      std::size_t slots) {
+    const auto most = static_cast<std::size_t>(packet_bits / delta_bits);
+    if (most == 0) {
+        throw ConfigError(
+            fmt::format("a packet of {} bits holds no difference of {}", packet_bits, delta_bits));
+    }
+    Water water(losses);
+    Age age;
+    std::size_t done = 0, rounds = 0;
+    for (std::size_t n = 1; n <= slots; ++n) {
+        const std::size_t end = std::min(n, done + most);
+        if (!water.loses_packet()) {
+            age.newest(end);
+            if (!water.loses_ack()) {
+                done = end;
+                ++rounds;
+            }
+        }
+        age.slot(n);
+    }
+    LinkCost cost{0, age.mean(), true};
+    cost.bits = packet_bits / static_cast<double>(most) * static_cast<double>(slots) /
+                static_cast<double>(std::max<std::size_t>(rounds, 1));
+    cost.is_stable = static_cast<double>(rounds * most) > static_cast<double>(slots);
+    return cost;
+}
+
+LinkReport simulate_link(std::span<const Fix> track, const LinkOptions& options, const Codec& codec,
+                         const Horizon& horizon, std::size_t max_bytes, const Losses& losses) {
+    Sender sender(options, codec, horizon);
+    Receiver receiver(options, codec, horizon);
+    Water water(losses);
+    Age age;
+    LinkReport report;
+    std::map<std::int64_t, std::size_t> number_of;  // by time
+    double bits = 0, header_bits = 0, bytes = 0;
+    for (const Fix& fix : track) {
+        sender.sample(fix);
+        number_of[fix.time_ms] = ++report.sampled;
+        if (const auto packet = sender.packet(max_bytes)) {
+            ++report.packets;
+            bits += static_cast<double>(packet->bits);
+            header_bits += static_cast<double>(packet->header_bits);
+            bytes += static_cast<double>(packet->bytes.size());
+            if (!water.loses_packet()) {
+                const Arrival arrival = receiver.packet(packet->bytes);
+                for (const Fix& known : arrival.fixes) {
+                    const auto at = number_of.find(known.time_ms);
+                    const bool is_right =
+                        at != number_of.end() && track[at->second - 1].cell == known.cell;
+                    if (is_right) age.newest(at->second);
+                    ++(is_right ? report.arrived : report.wrong);
+                }
+                if (!water.loses_ack()) sender.acknowledge(arrival.ack);
+            }
+        }
+        age.slot(report.sampled);
+    }
+    const auto n = static_cast<double>(std::max<std::size_t>(report.sampled, 1));
+    report.cost = {bits / n, age.mean(), true};
+    report.header_bits = header_bits / n;
+    report.air_bytes = bytes / n;
+    return report;
+}
+
+}  // namespace seautils::position

@@ -1,0 +1,14 @@
+// poscode - send a vehicle's track in a few bits a fix
+#include "poscode_stat.hpp"
+
+#include "seautils/cli/commands.hpp"
+
+using namespace seautils;
+
+int main(int argc, char** argv) {
+    cli::Commands poscode{"poscode", "Send a vehicle's track in a few bits a fix.",
+                          "  poscode encode --tau 10 track.csv | poscode decode --tau 10\n"
+                          "  poscode stat --tau 10 track.csv\n"};
+    poscode.add("stat", "Say what each codec costs on a track", tools::stat_main);
+    return poscode.main(argc, argv);
+}
