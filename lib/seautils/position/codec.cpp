@@ -38,6 +38,11 @@ std::unique_ptr<Codec> make_codec(const CodecOptions& options) {
     check("interval", options.interval_ms, 86'400'000, "ms");
     check("speed", options.speed_mmps, 100'000, "mm/s");
     check("resolution", options.resolution_mm, 1'000'000, "mm");
+    if (options.plan.size() > PlanModel::most_waypoints)
+        throw ConfigError("plan has more than 65535 waypoints");
+    for (const Cell& waypoint : options.plan)
+        if (!in_limits(waypoint))
+            throw ConfigError("plan has a waypoint beyond the limits of the grid");
     if (options.kind == CodecOptions::Kind::mix) return std::make_unique<MixCodec>(options);
     return std::make_unique<ThesisCodec>(options);
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace seautils::position {
 
@@ -74,6 +75,9 @@ struct CodecOptions {
     std::int64_t speed_mmps = 1'500;     ///< the vehicle's usual speed: 1 to 100,000; fixed, kalman
     std::int64_t resolution_mm = 1'000;  ///< of a Cell: 1 to 1,000,000
     bool small = false;                  ///< mix: half the memory
+    /// mix: the waypoints of the mission in order, at most 65,535; x, y and z of each, cells. Both ends
+    /// know them: turns then are no surprise. None: no plan.
+    std::vector<Cell> plan;
 };
 
 /// @throws ConfigError  a number out of its range, named

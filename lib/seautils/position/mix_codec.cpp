@@ -81,11 +81,12 @@ MixCodec::Range MixCodec::range_of(std::size_t klass, std::int32_t centre) {
 }
 
 MixCodec::MixCodec(const CodecOptions& options)
-    : capacity_(options.small ? situations / 2 : situations), model_(capacity_) {}
+    : capacity_(options.small ? situations / 2 : situations), model_(capacity_, options.plan) {}
 
 void MixCodec::restart(const Cell& cell) {
     started_ = true;
     motion_.restart(cell);
+    model_.begin(cell);
 }
 
 Cell MixCodec::step_to(const Cell& next) const {
@@ -216,6 +217,7 @@ std::optional<Cell> MixCodec::decode_alone(entropy::BitReader& in) {
 std::string MixCodec::save() const {
     StateWriter out(state_version);
     out.number(static_cast<std::int64_t>(capacity_));
+    out.number(model_.plan_mark());
     MixCodec kept(*this);
     Save archive(out);
     archive.number(kept.started_);
@@ -226,6 +228,7 @@ std::string MixCodec::save() const {
 void MixCodec::load(std::string_view state) {
     StateReader in(state, state_version);
     in.same(static_cast<std::int64_t>(capacity_));
+    in.same(model_.plan_mark());
     MixCodec loaded(*this);
     Load archive(in);
     archive.number(loaded.started_, 0, 1);

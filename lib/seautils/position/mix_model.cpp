@@ -21,14 +21,15 @@ std::int32_t scored(std::int32_t score, std::int32_t probability_q24) {
 
 }  // namespace
 
-MixModel::MixModel(std::size_t capacity)
+MixModel::MixModel(std::size_t capacity, const std::vector<Cell>& plan)
     : path_(AnalogModel::Kind::path, capacity),
       innovation_(AnalogModel::Kind::innovation, capacity),
       world_(AnalogModel::Kind::world, capacity),
       place_(AnalogModel::Kind::place, capacity),
       cases_(capacity),
-      plane_mixer_(planes + 1, {12, 15, 9}),
-      depth_mixer_(depths + 1, {1, 4, 15}) {}
+      plan_(plan),
+      plane_mixer_(planes + (plan.empty() ? 0 : 1), {12, 15, 9}),
+      depth_mixer_(depths + (plan.empty() ? 0 : 1), {1, 4, 15}) {}
 
 Mixer::Contexts MixModel::plane_contexts(const Motion& m) {
     const std::size_t turn_age = m.since_turn < 3 ? 0 : m.since_turn < 8 ? 1 : 2;
@@ -50,9 +51,9 @@ void MixModel::forecast(const Motion& m, Forecast& f) {
     f.fast_z = m.expected(m.fast_z);
     f.plane = {slow_.predict(m, f.slow), fast_.predict(m, f.fast), turn_.predict(m),
                path_.predict(m),         innovation_.predict(m),   world_.predict(m),
-               place_.predict(m)};
+               place_.predict(m),        plan_.predict(m)};
     f.depth = {slow_z_.predict(f.slow_z), fast_z_.predict(f.fast_z), hold_z_.predict(0),
-               cases_.predict(m)};
+               cases_.predict(m), plan_.predict_depth(m)};
 }
 
 ValueCoder MixModel::z_coder(const Motion& m, const Forecast& f) {
@@ -60,24 +61,24 @@ ValueCoder MixModel::z_coder(const Motion& m, const Forecast& f) {
         std::max_element(depth_score_.begin(), depth_score_.end()) - depth_score_.begin());
     const std::array<std::int32_t, 3> means{f.slow_z, f.fast_z, 0};
     ValueCoder coder(means[best], depth_mixer_, depth_contexts(m));
-    for (const Mixture& model : f.depth) coder.add(model);
+    for (std::size_t k = 0; k + (plan_.empty() ? 1 : 0) < depths; ++k) coder.add(f.depth[k]);
     return coder;
 }
 
 ValueCoder MixModel::coder_of(const std::array<Mixture, planes>& models, const Motion& m) {
     const std::size_t best = plane_score_[1] > plane_score_[0] ? 1 : 0;
     ValueCoder coder(models[best].mean(), plane_mixer_, plane_contexts(m));
-    for (const Mixture& model : models) coder.add(model);
+    for (std::size_t k = 0; k < plane_count(); ++k) coder.add(models[k]);
     return coder;
 }
 
 ValueCoder MixModel::x_coder(const Motion& m, Forecast& f) {
-    for (std::size_t k = 0; k < planes; ++k) f.along_x[k] = f.plane[k].along_x();
+    for (std::size_t k = 0; k < plane_count(); ++k) f.along_x[k] = f.plane[k].along_x();
     return coder_of(f.along_x, m);
 }
 
 ValueCoder MixModel::y_coder(const Motion& m, Forecast& f, std::int32_t step_x) {
-    for (std::size_t k = 0; k < planes; ++k) f.along_y[k] = f.plane[k].along_y(step_x);
+    for (std::size_t k = 0; k < plane_count(); ++k) f.along_y[k] = f.plane[k].along_y(step_x);
     return coder_of(f.along_y, m);
 }
 
@@ -97,6 +98,7 @@ void MixModel::learn(const Motion& m, const Forecast& f, const Cell& step) {
     fast_z_.learn(f.fast_z, f.depth[1], step.z);
     hold_z_.learn(0, f.depth[2], step.z);
     cases_.learn(m, f.depth[3], step.z);
+    plan_.learn(m, f.plane[7], f.depth[4], step);
 }
 
 }  // namespace seautils::position

@@ -1,6 +1,7 @@
 #ifndef SEAUTILS_POSITION_MIX_MODEL_HPP
 #define SEAUTILS_POSITION_MIX_MODEL_HPP
 
+#include "seautils/position/plan_model.hpp"
 #include "seautils/position/predictors.hpp"
 #include "seautils/position/value_coder.hpp"
 
@@ -13,10 +14,16 @@ namespace seautils::position {
 /// All that is known of one vehicle's ways, and what it makes of the motion so far. A value.
 class MixModel {
 public:
-    static constexpr std::size_t planes = 7, depths = 4;
+    static constexpr std::size_t planes = 8, depths = 5;  ///< the last of each is the plan's
 
     /// @param capacity  situations that each memory keeps
-    explicit MixModel(std::size_t capacity);
+    /// @param plan      waypoints, or none
+    MixModel(std::size_t capacity, const std::vector<Cell>& plan);
+
+    /// The vehicle was found here.
+    void begin(const Cell& cell) { plan_.begin(cell); }
+    /// A number that stands for the plan.
+    std::int64_t plan_mark() const { return plan_.mark(); }
 
     /// What is expected next, from the last known position.
     struct Forecast {
@@ -46,6 +53,7 @@ public:
 private:
     static Mixer::Contexts plane_contexts(const Motion& motion);
     static Mixer::Contexts depth_contexts(const Motion& motion);
+    std::size_t plane_count() const { return plan_.empty() ? planes - 1 : planes; }
     ValueCoder coder_of(const std::array<Mixture, planes>& models, const Motion& motion);
 
     FilterModel slow_, fast_;
@@ -53,6 +61,7 @@ private:
     AnalogModel path_, innovation_, world_, place_;
     DepthModel slow_z_, fast_z_, hold_z_;
     DepthAnalogModel cases_;
+    PlanModel plan_;
     Mixer plane_mixer_, depth_mixer_;
     /// How well the filters did of late: sums of log2 of what they expected, Q16.
     std::array<std::int32_t, 2> plane_score_{};

@@ -19,6 +19,21 @@ std::int32_t Mixture::mean() const {
     return weights == 0 ? 0 : static_cast<std::int32_t>(sum / weights);
 }
 
+std::array<std::int32_t, most_components> responsibility(const Mixture& m, std::int32_t cell) {
+    std::array<std::int32_t, most_components> share{};
+    std::int64_t total = 0;
+    std::array<std::int64_t, most_components> product{};
+    for (std::size_t k = 0; k < m.size(); ++k) {
+        const std::int64_t mass =
+            m.component_below(k, upper_edge(cell)) - m.component_below(k, upper_edge(cell - 1));
+        total += product[k] = mass * m.weight(k);
+    }
+    const std::int64_t unit = (total >> 20) + 1;
+    for (std::size_t k = 0; k < m.size(); ++k)
+        share[k] = unit < 256 ? m.weight(k) : static_cast<std::int32_t>(product[k] / unit);
+    return share;
+}
+
 void PlaneMixture::add(std::int32_t weight, Pair mean, std::int64_t along, std::int64_t across,
                        Direction d) {
     along = clamp(along, least_sd, most_sd);

@@ -68,6 +68,9 @@ private:
     std::array<std::int32_t, most_components> weight_, mean_, reach_, inverse_;
 };
 
+/// How much each component of a mixture expected a cell, Q20, together at most 1.
+std::array<std::int32_t, most_components> responsibility(const Mixture& m, std::int32_t cell);
+
 /// Over the plane: y depends on x by a slope.
 class PlaneMixture {
 public:

@@ -22,22 +22,6 @@ Pair in_q8(const Cell& step) {
 
 std::int64_t square(std::int64_t v) { return v * v; }
 
-/// How much each component of a mixture along one axis expected a cell, Q20, together at most 1.
-std::array<std::int32_t, most_components> responsibility(const Mixture& m, std::int32_t cell) {
-    std::array<std::int32_t, most_components> share{};
-    std::int64_t total = 0;
-    std::array<std::int64_t, most_components> product{};
-    for (std::size_t k = 0; k < m.size(); ++k) {
-        const std::int64_t mass =
-            m.component_below(k, upper_edge(cell)) - m.component_below(k, upper_edge(cell - 1));
-        total += product[k] = mass * m.weight(k);
-    }
-    const std::int64_t unit = (total >> 20) + 1;
-    for (std::size_t k = 0; k < m.size(); ++k)
-        share[k] = unit < 256 ? m.weight(k) : static_cast<std::int32_t>(product[k] / unit);
-    return share;
-}
-
 constexpr std::array<std::int32_t, 3> filter_scales{154, 307, 768};  // 0.6, 1.2, 3
 constexpr std::array<std::int32_t, 3> analog_scales{60, 160, 700};   // 0.23, 0.63, 2.7
 constexpr std::array<std::int32_t, 4> depth_scales{128, 230, 435, 1024};
