@@ -9,7 +9,7 @@ setup() {
 # hashes COMPILER FLAG...: builds the program of tests/portable in all, and prints what it says.
 hashes() {
     local lib=$SEAUTILS_ROOT/lib/seautils
-    "$@" -std=c++20 -DFMT_HEADER_ONLY -I "$SEAUTILS_ROOT/lib" -o codecs "$BATS_TEST_DIRNAME/portable/codecs.cpp" \
+    "$@" -std=c++20 -I "$BATS_TEST_DIRNAME/portable" -I "$SEAUTILS_ROOT/lib" -o codecs "$BATS_TEST_DIRNAME/portable/codecs.cpp" \
         "$lib"/position/*.cpp "$lib"/entropy/*.cpp "$lib"/core/text.cpp
     ./codecs
 }

@@ -119,7 +119,7 @@ constexpr Named codecs[] = {
 }  // namespace
 
 int main() {
-    const std::vector<Cell> walk = random_walk(1000);
+    const std::vector<Cell> walk = random_walk(500);
     for (const Named& codec : codecs) {
         for (const std::int64_t interval_ms : {1'000, 10'000, 45'000}) {
             CodecOptions options;
