@@ -14,7 +14,7 @@ using position::CodecOptions;
 
 namespace {
 
-/// Numerical Recipes' generator: the same on any machine.
+/// Knuth's linear congruential generator of MMIX: the same on any machine.
 class Random {
 public:
     std::int32_t below(std::uint32_t end) {
