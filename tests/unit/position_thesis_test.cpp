@@ -1,5 +1,7 @@
 // The thesis's codecs: laws for each observer and model, and the reference figures on whole tracks.
 // Those lie outside of the tree, where SEAUTILS_SHARED says (default ../shared).
+#include "position_tracks.hpp"
+
 #include "seautils/core/error.hpp"
 #include "seautils/position/codec.hpp"
 #include "seautils/position/thesis.hpp"
@@ -10,9 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <stdexcept>
@@ -437,43 +437,6 @@ TEST(Thesis, StateOfAnotherVersionOrOfOtherOptionsIsNamed) {
 
 // ------------------------------------------------------------------ the reference figures
 
-std::string vectors_folder() {
-    const char* shared = std::getenv("SEAUTILS_SHARED");
-    const std::string root =
-        shared != nullptr ? shared : std::string(SEAUTILS_SOURCE_DIR) + "/../shared";
-    return root + "/vectors/poscode";
-}
-
-struct Fix {
-    double time_s;
-    Cell cell;  ///< of 1 m
-};
-
-std::string content_of(const std::string& path) {
-    const bool plain = std::filesystem::exists(path);
-    std::FILE* pipe =
-        popen(((plain ? "cat '" : "gzip -dc '") + path + (plain ? "'" : ".gz'")).c_str(), "r");
-    std::string content;
-    for (char block[65536]; const std::size_t n = std::fread(block, 1, sizeof block, pipe);)
-        content.append(block, n);
-    return pclose(pipe) == 0 ? content : "";
-}
-
-std::vector<Fix> track(const std::string& file) {
-    std::istringstream lines(content_of(vectors_folder() + "/" + file));
-    std::string line;
-    std::getline(lines, line);
-    EXPECT_EQ(line, "t,x,y,z");
-    std::vector<Fix> fixes;
-    while (std::getline(lines, line)) {
-        double t = 0, x = 0, y = 0, z = 0;
-        EXPECT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &t, &x, &y, &z), 4) << line;
-        const auto cell = [](double v) { return static_cast<std::int32_t>(std::floor(v + 0.5)); };
-        fixes.push_back({t, {cell(x), cell(y), cell(z)}});
-    }
-    return fixes;
-}
-
 /// What a whole track costs, decoded too. As the reference counts: each position but the first and
 /// those after a gap is a delta message; one that cannot be coded costs out_of_range_symbol, and a
 /// full fix follows.
@@ -489,9 +452,9 @@ public:
     Meter(const CodecOptions& options, std::size_t per_packet)
         : sender_(options), receiver_(sender_.clone()), per_packet_(per_packet) {}
 
-    Cost run(const std::vector<Fix>& fixes, double tau_s) {
+    Cost run(const std::vector<TimedCell>& fixes, double tau_s) {
         double last_s = -1e18;
-        for (const Fix& fix : fixes) {
+        for (const TimedCell& fix : fixes) {
             const bool gap = fix.time_s - last_s > 1.5 * tau_s;
             last_s = fix.time_s;
             if (gap) {
@@ -549,7 +512,7 @@ CodecOptions named(const std::string& name) {
 }
 
 void compare(const json& expected, const std::string& name, const CodecOptions& options,
-             const std::vector<Fix>& fixes, double tau_s) {
+             const std::vector<TimedCell>& fixes, double tau_s) {
     const Cost one = Meter(options, 1).run(fixes, tau_s);
     const Cost three = Meter(options, 3).run(fixes, tau_s);
     EXPECT_EQ(one.deltas, expected.at("nd")) << name;
@@ -573,7 +536,7 @@ TEST(Thesis, ReferenceFiguresOnWholeTracks) {
     ASSERT_GE(all.size(), 11U);
     for (const json& entry : all) {
         const std::string name = entry.at("file");
-        const std::vector<Fix> fixes = track(name);
+        const std::vector<TimedCell> fixes = track_of(name);
         ASSERT_GT(fixes.size(), 200U) << name;
         const double tau_s = entry.at("tau_s"), speed_mps = entry.at("speed_mps");
         for (const auto& [codec, expected] : entry.at("thesis").items()) {

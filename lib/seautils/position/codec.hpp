@@ -38,7 +38,7 @@ public:
     /// @throws DataError  the bits end, or lead beyond the limits of a Cell
     virtual std::optional<Cell> decode(entropy::Decoder& in) = 0;
 
-    /// Learns the next position as encode() does, and codes nothing.
+    /// Learns the next position as encode() does, and codes nothing. The first of all is a restart().
     virtual void learn(const Cell& next) = 0;
 
     /// Codes one position as all that a packet holds, and learns it: in the fewest whole bits.

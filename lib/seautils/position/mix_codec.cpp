@@ -107,7 +107,7 @@ Cell MixCodec::follow(MixModel::Forecast& f, Decide decide) {
     step.x = model_.x_coder(motion_, f).find(on(0));
     step.y = model_.y_coder(motion_, f, step.x).find(on(1));
     const Cell next{motion_.last.x + step.x, motion_.last.y + step.y, motion_.last.z + step.z};
-    if (!in_limits(next)) throw DataError("a position beyond the limits of the grid");
+    if (!in_limits(next)) throw DataError("position is beyond the limits");
     model_.learn(motion_, f, step);
     motion_.step(next);
     return next;
@@ -125,7 +125,7 @@ void MixCodec::encode(const Cell& next, entropy::Encoder& out) {
 }
 
 std::optional<Cell> MixCodec::decode(entropy::Decoder& in) {
-    if (!started_) throw DataError("a position before the first full fix");
+    if (!started_) throw DataError("no position is known to go on from");
     MixModel::Forecast f;
     model_.forecast(motion_, f);
     return follow(f, [&](std::size_t, std::int32_t yes, std::int32_t, std::int32_t) {
@@ -134,6 +134,7 @@ std::optional<Cell> MixCodec::decode(entropy::Decoder& in) {
 }
 
 void MixCodec::learn(const Cell& next) {
+    if (!started_ && in_limits(next)) return restart(next);
     const Ranges actual = exactly(step_to(next));
     MixModel::Forecast f;
     model_.forecast(motion_, f);
@@ -203,7 +204,7 @@ void MixCodec::encode_alone(const Cell& next, entropy::BitString& out) {
 }
 
 std::optional<Cell> MixCodec::decode_alone(entropy::BitReader& in) {
-    if (!started_) throw DataError("a position before the first full fix");
+    if (!started_) throw DataError("no position is known to go on from");
     MixModel::Forecast f;
     model_.forecast(motion_, f);
     const Ranges said = said_by(f, joint_code(f).get(in));
