@@ -73,7 +73,7 @@ private:
     static std::string script(const Target& target, const std::vector<Curve>& curves) {
         std::string text = "set terminal " + target.terminal +
                            "\nset encoding utf8\nset xlabel 'bits a delta'\nset ylabel 'deltas'\n"
-                           "set grid\nset key outside right\n";
+                           "set grid\nset key top right\n";
         std::string list;
         for (std::size_t k = 0; k < curves.size(); ++k) {
             text += fmt::format("$c{} << END\n", k);

@@ -182,6 +182,14 @@ public:
         return options;
     }
 
+    /// The datum, however it is written, and the frame.
+    std::string frame_text() const {
+        const auto said = frame();
+        if (!said) return "none";
+        return fmt::format("{:.9f} {:.9f} {}", said->datum().latitude_deg,
+                           said->datum().longitude_deg, frame_ == "utm" ? "utm" : "local");
+    }
+
     std::int64_t interval_ms() const { return ms(tau_); }
 
 private:

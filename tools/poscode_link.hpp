@@ -1,0 +1,272 @@
+// poscode encode and decode over a stream that loses nothing: a file or a pipe.
+#ifndef SEAUTILS_TOOLS_POSCODE_LINK_HPP
+#define SEAUTILS_TOOLS_POSCODE_LINK_HPP
+
+#include "poscode_track.hpp"
+#include "record_io.hpp"
+
+#include "seautils/position/fix_writer.hpp"
+#include "seautils/position/hash.hpp"
+#include "seautils/position/receiver.hpp"
+#include "seautils/position/sender.hpp"
+#include "seautils/stream/hex.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace seautils::tools {
+
+/// A number for what LinkOptions do not hold of what both ends must say alike.
+inline std::uint64_t agreed_number(const TrackOptions& track) {
+    const position::CodecOptions codec = track.codec_options(track.codec());
+    const position::Grid grid = track.grid();
+    const std::string text =
+        fmt::format("{} {} {} {} {} {} {}", static_cast<int>(codec.kind),
+                    static_cast<int>(codec.model), codec.speed_mmps, codec.small ? 1 : 0,
+                    grid.resolution_mm, grid.resolution_z_mm, track.frame_text());
+    return position::hash(text, 0);
+}
+
+inline position::LinkOptions link_options(const TrackOptions& track) {
+    position::LinkOptions options;
+    const position::Grid grid = track.grid();
+    options.interval_ms = track.interval_ms();
+    options.least = grid.min;
+    options.most = grid.max;
+    options.agreed = agreed_number(track);
+    return options;
+}
+
+struct EncodeOptions {
+    TrackOptions track;
+    std::uint32_t max_bytes = 32, deltas_per_packet = 0, id = 0, src = 0, dest = 0;
+
+    void add(CLI::App& app) {
+        track.add_codec(app);
+        track.add_sampling(app);
+        app.add_option("--max-bytes", max_bytes, "Fill packets up to this size, 32")
+            ->option_text("N");
+        app.add_option("--deltas-per-packet", deltas_per_packet,
+                       "Send after so many positions, at the latest")
+            ->option_text("N");
+        app.add_option("--id", id, "Of message records: their id, 0 to 32767")->option_text("N");
+        app.add_option("--src", src, "Of message records: modem ID of this vehicle, 1 to 30")
+            ->option_text("ID");
+        app.add_option("--dest", dest, "Of message records: of the receiver, 0 to 30; 0: everybody")
+            ->option_text("ID");
+    }
+
+    /// @throws Error(usage)
+    void check(bool messages) const {
+        const auto within = [](const char* option, std::uint64_t value, std::uint64_t least,
+                               std::uint64_t most) {
+            if (value < least || value > most)
+                throw Error(ExitCode::usage, fmt::format("option {}: {} is outside {} to {}",
+                                                         option, value, least, most));
+        };
+        within("--max-bytes", max_bytes, position::least_bytes(link_options(track)), 2048);
+        within("--deltas-per-packet", deltas_per_packet, 0, 1000);
+        within("--id", id, 0, 32767);
+        within("--src", src, 0, 30);
+        within("--dest", dest, 0, 30);
+        if (!messages && (id != 0 || src != 0 || dest != 0))
+            throw Error(ExitCode::usage, "options --id, --src and --dest are for --format message");
+    }
+};
+
+/// Puts samples into packets as full as may be. Each is decoded at once, as the receiver will.
+class PacketFiller {
+public:
+    PacketFiller(const EncodeOptions& options)
+        : options_(options),
+          link_(link_options(options.track)),
+          codec_(position::make_codec(options.track.codec_options(options.track.codec()))),
+          sender_(link_, *codec_, *position::make_horizon()),
+          receiver_(link_, *codec_, *position::make_horizon()) {}
+
+    /// @return packets that are complete now, until the next call
+    const std::vector<position::Packet>& add(const position::Sample& sample) {
+        complete_.clear();
+        sender_.sample({sample.time_ms, sample.cell});
+        const bool is_due =
+            options_.deltas_per_packet > 0 && sender_.pending() >= options_.deltas_per_packet;
+        if (is_due || sender_.pending() >= look_at_) look(is_due);
+        return complete_;
+    }
+    /// The rest.
+    const std::vector<position::Packet>& finish() {
+        complete_.clear();
+        if (sender_.pending() > 0) look(true);
+        return complete_;
+    }
+
+private:
+    /// Whether all that is pending fits one packet still; if not, what fitted before leaves.
+    void look(bool all) {
+        for (;;) {
+            auto packet = sender_.packet(options_.max_bytes);
+            const bool fits = packet && packet->kind == position::PacketKind::window &&
+                              packet->positions == sender_.pending();
+            if (fits) fitting_ = std::move(packet);
+            if (fits && !all) return plan();
+            if (!fits && !fitting_) fitting_ = std::move(packet);
+            if (!fitting_) throw std::logic_error("no position fits a packet");
+            send();
+            if (sender_.pending() == 0) return;
+        }
+    }
+
+    /// How many positions there should be at the next look: for half of the room that is left.
+    void plan() {
+        const double room = 8.0 * options_.max_bytes - static_cast<double>(fitting_->bits) - 16;
+        const double each = static_cast<double>(fitting_->bits) / fitting_->positions;
+        const double more = std::max(1.0, room / each * 0.7);
+        look_at_ = fitting_->positions + static_cast<std::size_t>(more);
+    }
+
+    void send() {
+        const position::Arrival arrival = receiver_.packet(fitting_->bytes);
+        if (arrival.outcome != position::Arrival::Outcome::decoded)
+            throw std::logic_error("what was coded cannot be decoded: " + arrival.why);
+        if (sender_.acknowledge(arrival.ack) != position::Sender::Heard::advanced)
+            throw std::logic_error("what was decoded is not acknowledged");
+        complete_.push_back(std::move(*fitting_));
+        fitting_.reset();
+        look_at_ = 1;
+    }
+
+    const EncodeOptions& options_;
+    position::LinkOptions link_;
+    std::unique_ptr<position::Codec> codec_;
+    position::Sender sender_;
+    position::Receiver receiver_;
+    std::optional<position::Packet> fitting_;
+    std::size_t look_at_ = 1;
+    std::vector<position::Packet> complete_;
+};
+
+class Encode {
+public:
+    Encode(cli::Io& io, const EncodeOptions& options)
+        : io_(io), options_(options), filler_(options) {}
+
+    void run() {
+        for_each_sample(io_, position::FixReader(options_.track.reading(io_.input_format)),
+                        options_.track.sampling(),
+                        [this](const position::Sample& sample) { write(filler_.add(sample)); });
+        write(filler_.finish());
+    }
+
+private:
+    void write(const std::vector<position::Packet>& packets) {
+        for (const position::Packet& packet : packets) {
+            if (io_.format == "message") {
+                message(packet);
+                continue;
+            }
+            std::string& out = io_.out.buffer();
+            if (io_.format == "delimited")
+                stream::append_delimited(out, packet.bytes);
+            else {
+                stream::append_hex(out, packet.bytes);
+                out += '\n';
+            }
+            io_.out.commit();
+        }
+    }
+
+    void message(const position::Packet& packet) {
+        record::Record record;
+        record.time.ns = packet.newest.time_ms * 1'000'000;
+        record::Message message;
+        message.id = options_.id;
+        message.src = options_.src;
+        message.dest = options_.dest;
+        message.created = record.time;
+        message.data = packet.bytes;
+        record.kind = std::move(message);
+        codec_.write(record, record::Form::ndjson, io_.out.buffer());
+        io_.out.commit();
+    }
+
+    cli::Io& io_;
+    const EncodeOptions& options_;
+    PacketFiller filler_;
+    record::Codec codec_;
+};
+
+class Decode {
+public:
+    Decode(cli::Io& io, const TrackOptions& track)
+        : io_(io),
+          link_(link_options(track)),
+          codec_(position::make_codec(track.codec_options(track.codec()))),
+          receiver_(link_, *codec_, *position::make_horizon()),
+          writer_(form(io.format), track.grid(), track.frame()) {}
+
+    void run() {
+        writer_.header(io_.out.buffer());
+        const bool binary = io_.input_format == "delimited";
+        io_.for_each(binary ? cli::Framing::delimited : cli::Framing::lines,
+                     [&](std::string_view record) {
+                         if (!binary) stream::from_hex(record, bytes_);
+                         packet(binary ? record : std::string_view(bytes_));
+                     });
+    }
+
+private:
+    static position::FixWriter::Form form(const std::string& name) {
+        using Form = position::FixWriter::Form;
+        return name == "csv" ? Form::csv : name == "delimited" ? Form::delimited : Form::ndjson;
+    }
+
+    void packet(std::string_view bytes) {
+        const position::Arrival arrival = receiver_.packet(bytes);
+        if (arrival.outcome == position::Arrival::Outcome::undecodable)
+            throw DataError(arrival.why);
+        for (const position::Fix& fix : arrival.fixes) {
+            writer_.write(fix.time_ms, fix.cell, io_.out.buffer());
+            io_.out.commit();
+        }
+    }
+
+    cli::Io& io_;
+    position::LinkOptions link_;
+    std::unique_ptr<position::Codec> codec_;
+    position::Receiver receiver_;
+    position::FixWriter writer_;
+    std::string bytes_;
+};
+
+inline int encode_main(int argc, char** argv) {
+    EncodeOptions options;
+    cli::App app{"poscode encode",
+                 "Pack a vehicle's track into packets of a few bits a fix.",
+                 "  poscode encode --tau 10 --max-bytes 32 track.csv > packets.hex\n",
+                 {.config = true}};
+    app.input_formats(fix_formats);
+    app.output_formats({"hex", "delimited", "message"});
+    options.add(app.options());
+    return app.main(argc, argv, [&](cli::Io& io) {
+        options.check(io.format == "message");
+        Encode(io, options).run();
+    });
+}
+
+inline int decode_main(int argc, char** argv) {
+    TrackOptions track;
+    cli::App app{"poscode decode",
+                 "Unpack the positions of packets.",
+                 "  poscode decode --tau 10 --format csv packets.hex\n",
+                 {.config = true}};
+    app.input_formats({"hex", "delimited"});
+    app.output_formats({"ndjson", "csv", "delimited"});
+    track.add_codec(app.options());
+    return app.main(argc, argv, [&](cli::Io& io) { Decode(io, track).run(); });
+}
+
+}  // namespace seautils::tools
+
+#endif  // SEAUTILS_TOOLS_POSCODE_LINK_HPP
