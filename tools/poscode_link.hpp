@@ -9,10 +9,13 @@
 #include "seautils/position/hash.hpp"
 #include "seautils/position/receiver.hpp"
 #include "seautils/position/sender.hpp"
+#include "seautils/position/track_state.hpp"
 #include "seautils/stream/hex.hpp"
 
-#include <algorithm>
+#include <bit>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -76,74 +79,89 @@ struct EncodeOptions {
     }
 };
 
-/// Puts samples into packets as full as may be. Each is decoded at once, as the receiver will.
+/// Puts samples into packets as full as may be: knows from a trial what still fits. Each packet is
+/// decoded at once, as the receiver will, so that the next one builds on it.
 class PacketFiller {
 public:
-    PacketFiller(const EncodeOptions& options)
+    explicit PacketFiller(const EncodeOptions& options)
         : options_(options),
           link_(link_options(options.track)),
           codec_(position::make_codec(options.track.codec_options(options.track.codec()))),
-          sender_(link_, *codec_, *position::make_horizon()),
-          receiver_(link_, *codec_, *position::make_horizon()) {}
+          horizon_(position::make_horizon()),
+          sender_(link_, *codec_, *horizon_),
+          receiver_(link_, *codec_, *horizon_) {}
 
     /// @return packets that are complete now, until the next call
     const std::vector<position::Packet>& add(const position::Sample& sample) {
         complete_.clear();
-        sender_.sample({sample.time_ms, sample.cell});
-        const bool is_due =
-            options_.deltas_per_packet > 0 && sender_.pending() >= options_.deltas_per_packet;
-        if (is_due || sender_.pending() >= look_at_) look(is_due);
+        const position::Fix fix{sample.time_ms, sample.cell};
+        if (!state_) state_.emplace(link_, *codec_, *horizon_, fix.time_ms);
+        if (!put(fix)) {
+            send();
+            put(fix);  // alone it fits: least_bytes()
+        }
+        waiting_.push_back(fix);
+        if (waiting_.size() == options_.deltas_per_packet) send();
         return complete_;
     }
     /// The rest.
     const std::vector<position::Packet>& finish() {
         complete_.clear();
-        if (sender_.pending() > 0) look(true);
+        if (!waiting_.empty()) send();
         return complete_;
     }
 
 private:
-    /// Whether all that is pending fits one packet still; if not, what fitted before leaves.
-    void look(bool all) {
-        for (;;) {
-            auto packet = sender_.packet(options_.max_bytes);
-            const bool fits = packet && packet->kind == position::PacketKind::window &&
-                              packet->positions == sender_.pending();
-            if (fits) fitting_ = std::move(packet);
-            if (fits && !all) return plan();
-            if (!fits && !fitting_) fitting_ = std::move(packet);
-            if (!fitting_) throw std::logic_error("no position fits a packet");
-            send();
-            if (sender_.pending() == 0) return;
-        }
+    /// Whether it fits behind those that wait.
+    bool put(const position::Fix& fix) {
+        position::TrackState next(*state_);
+        next.encode(next.step_to(fix, 1), coder_);
+        const std::size_t bits = header_bits() + bits_.size() + coder_.ending_bits();
+        const std::size_t most = 8 * options_.max_bytes - link_.check_bits;
+        if (bits > most && !waiting_.empty()) return false;
+        *state_ = std::move(next);
+        return true;
     }
 
-    /// How many positions there should be at the next look: for half of the room that is left.
-    void plan() {
-        const double room = 8.0 * options_.max_bytes - static_cast<double>(fitting_->bits) - 16;
-        const double each = static_cast<double>(fitting_->bits) / fitting_->positions;
-        const double more = std::max(1.0, room / each * 0.7);
-        look_at_ = fitting_->positions + static_cast<std::size_t>(more);
+    std::size_t header_bits() const {
+        position::PacketHeader header;
+        header.is_start = !is_started_;
+        header.ahead = static_cast<std::uint32_t>(waiting_.size() + 1);
+        header.count = header.ahead;
+        header.reference_bits = static_cast<unsigned>(std::bit_width(header.ahead));
+        entropy::BitString bits;
+        position::put(header, bits);
+        return bits.size();
     }
 
     void send() {
-        const position::Arrival arrival = receiver_.packet(fitting_->bytes);
-        if (arrival.outcome != position::Arrival::Outcome::decoded)
-            throw std::logic_error("what was coded cannot be decoded: " + arrival.why);
+        for (const position::Fix& fix : waiting_) sender_.sample(fix);
+        auto packet = sender_.packet(options_.max_bytes);
+        if (!packet || packet->positions != waiting_.size())
+            throw std::logic_error("positions that should fit do not");
+        const position::Arrival arrival = receiver_.packet(packet->bytes);
+        if (arrival.fixes != waiting_)
+            throw std::logic_error("what was decoded is not what was coded");
         if (sender_.acknowledge(arrival.ack) != position::Sender::Heard::advanced)
             throw std::logic_error("what was decoded is not acknowledged");
-        complete_.push_back(std::move(*fitting_));
-        fitting_.reset();
-        look_at_ = 1;
+        complete_.push_back(std::move(*packet));
+        waiting_.clear();
+        bits_.clear();
+        coder_ = entropy::Encoder(bits_);
+        is_started_ = true;
     }
 
     const EncodeOptions& options_;
     position::LinkOptions link_;
     std::unique_ptr<position::Codec> codec_;
+    std::unique_ptr<position::Horizon> horizon_;
     position::Sender sender_;
     position::Receiver receiver_;
-    std::optional<position::Packet> fitting_;
-    std::size_t look_at_ = 1;
+    std::optional<position::TrackState> state_;  ///< behind those that wait
+    bool is_started_ = false;
+    std::vector<position::Fix> waiting_;
+    entropy::BitString bits_;
+    entropy::Encoder coder_{bits_};
     std::vector<position::Packet> complete_;
 };
 
