@@ -5,7 +5,8 @@ setup() {
     load test_helper
     cd "$BATS_TEST_TMPDIR" || return
     cp -r "$BATS_TEST_DIRNAME/data/schemas"/. "$SEAUTILS_ROOT/examples" "$SEAUTILS_ROOT/schemas" .
-    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log} .
+    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log,track.csv} .
+    poscode encode --datum 60,5 track.csv > track.hex
     printf %s 'correct horse' > passphrase
     # messages of all kinds, some of them bad
     awk 'BEGIN {
@@ -37,6 +38,10 @@ mm-serial --replay --raw modem.log
 dccl-info -s schemas
 dccl-info -s schemas -s fleet --format ndjson
 mm-sim --dir run --warp 1000 --duration 30 --raw examples/two-nodes/two-nodes.conf
+poscode encode track.csv
+poscode encode --codec kalman -f message --deltas-per-packet 7 track.csv
+poscode stat --format csv --deltas-per-packet 3 track.csv
+poscode decode --format csv --datum 60,5 track.hex
 queue-sched -c queues.conf --clock input --explain --stats link.ndjson
 tdma-slot --slot src=1,length=15 --slot src=2,length=20,kind=ping,dest=1 --id 2 --from 2024-05-01T23:00:00Z --to 2024-05-02T01:00:00Z
 tdma-slot --subsets 3 --runs 5 --p-collide 0.7 --limit 1000 --seed 9

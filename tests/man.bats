@@ -13,9 +13,16 @@ tools() {
     for tool in "$source"/tools/*.cpp; do basename "$tool" .cpp; done
 }
 
+# help_of TOOL: its --help, and that of each of its commands.
+help_of() {
+    local command
+    "$1" --help
+    for command in $("$1" --help | sed -n '/^Commands/,/^$/s/^  \([a-z]*\) .*/\1/p'); do "$1" "$command" --help; done
+}
+
 @test "man: each page names the options that --help names, and no others" {
     for tool in $(tools); do
-        run_quiet "$tool" --help
+        run_quiet help_of "$tool"
         grep -E '^ +(-., )?--' <<< "$output" | sed 's/^ \{2,6\}//; s/   .*//' |
             grep -oE -- '(^|[ ,])--?[a-zA-Z-]+' | tr -d ' ,' | sort -u > said
         grep -E '^\*-' "$pages/$tool.1.scd" | grep -oE -- '\*--?[a-zA-Z-]+' | tr -d '*' | sort > documented
