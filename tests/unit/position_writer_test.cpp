@@ -14,11 +14,8 @@ namespace {
 
 TEST(FixWriter, the_binary_form_is_that_of_the_schema) {
     schema::Pool pool;
-    pool.load({SEAUTILS_SOURCE_DIR "/schemas/seautils/position.proto"});
-    schema::LayoutSet layouts;
-    const auto* const type = pool.find("seautils.Fix");
-    ASSERT_NE(type, nullptr);
-    const schema::Layout& layout = layouts.of(*type);
+    pool.load(SEAUTILS_SOURCE_DIR "/schemas/seautils/position.proto");
+    const schema::Layout& layout = pool.layout(pool.message("seautils.Fix"));
     EXPECT_TRUE(rc::check("delimited, read by the schema, is the NDJSON", [&] {
         Grid grid = make_grid(*rc::gen::inRange(1, 9) * 250, *rc::gen::inRange(1, 9) * 250);
         const Cell cell{*rc::gen::inRange(-9'000, 9'000), *rc::gen::inRange(-9'000, 9'000),
