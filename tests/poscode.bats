@@ -100,6 +100,19 @@ END
     done
 }
 
+@test "poscode: a plan that both ends know" {
+    printf 'x,y,z\n375,0,-12\n375,-75,-12\n0,-75,-12\n' > plan.csv
+    poscode encode --plan plan.csv track.csv > hex
+    rounded track.csv | diff - <(poscode decode --plan plan.csv -f csv hex | tail -n +2)
+    run -1 --separate-stderr poscode decode hex
+    assert_output ''
+    echo '1,2' >> plan.csv
+    run -78 --separate-stderr poscode decode --plan plan.csv hex
+    assert_equal "$stderr" 'poscode: plan.csv:5: 2 cells where there are 3 columns'
+    run -66 --separate-stderr poscode stat --plan none.csv track.csv
+    assert_equal "$stderr" 'poscode: none.csv: No such file or directory'
+}
+
 @test "poscode decode: a packet that is damaged or cut is located, and nothing wrong is decoded" {
     poscode encode --deltas-per-packet 10 track.csv > hex
     poscode decode hex > whole

@@ -25,10 +25,12 @@ namespace seautils::tools {
 inline std::uint64_t agreed_number(const TrackOptions& track) {
     const position::CodecOptions codec = track.codec_options(track.codec());
     const position::Grid grid = track.grid();
-    const std::string text =
+    std::string text =
         fmt::format("{} {} {} {} {} {} {}", static_cast<int>(codec.kind),
                     static_cast<int>(codec.model), codec.speed_mmps, codec.small ? 1 : 0,
                     grid.resolution_mm, grid.resolution_z_mm, track.frame_text());
+    for (const position::Cell& waypoint : codec.plan)
+        text += fmt::format(" {} {} {}", waypoint.x, waypoint.y, waypoint.z);
     return position::hash(text, 0);
 }
 

@@ -9,6 +9,8 @@
 #include "seautils/position/fix_reader.hpp"
 #include "seautils/position/sampling.hpp"
 
+#include "seautils/stream/whole_file.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -103,6 +105,9 @@ public:
         app.add_option("--area", area_,
                        "Operating area, metres: x=-5000:5000,y=-5000:5000,z=-6000:10")
             ->option_text("AREA");
+        app.add_option("--plan", plan_,
+                       "Waypoints that both ends know: x,y,z or latitudes, longitudes")
+            ->option_text("FILE");
         app.add_option("--datum", datum_, "Where x and y are 0: 60.1,5.25")->option_text("LAT,LON");
         app.add_option("--frame", frame_, "Metres from the datum: local (default), utm")
             ->check(one_of({"local", "utm"}))
@@ -140,7 +145,8 @@ public:
                 .interval_ms = ms(tau_),
                 .speed_mmps = ms(speed_),
                 .resolution_mm = ms(resolution_),
-                .small = small_};
+                .small = small_,
+                .plan = name.kind == CodecName::Kind::mix ? plan() : std::vector<position::Cell>()};
     }
 
     /// @throws Error(usage)
@@ -149,6 +155,33 @@ public:
         position::Grid grid = position::make_grid(ms(resolution_), z_mm);
         if (!area_.empty()) named("--area", [&] { position::set_area(grid, area_); });
         return grid;
+    }
+
+    /// The waypoints of --plan, in order. @throws Error(no_input), ConfigError(located)
+    std::vector<position::Cell> plan() const {
+        std::vector<position::Cell> waypoints;
+        if (plan_.empty()) return waypoints;
+        position::FixReader::Options options = reading("auto");
+        options.is_timeless = true;
+        position::FixReader reader(std::move(options));
+        const auto read = stream::read_whole_file(plan_, most_plan_bytes);
+        if (!read) throw Error(ExitCode::no_input, plan_ + ": No such file or directory");
+        const std::string& text = *read;
+        std::size_t line = 0;
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            std::string_view row = std::string_view(text).substr(at, end - at);
+            if (row.ends_with('\r')) row.remove_suffix(1);
+            at = end + 1;
+            ++line;
+            try {
+                const auto fix = row.empty() ? std::nullopt : reader.read(row);
+                if (fix) waypoints.push_back(position::cell_of(grid(), fix->place));
+            } catch (const DataError& e) {
+                throw ConfigError(fmt::format("{}:{}: {}", plan_, line, e.what()));
+            }
+        }
+        return waypoints;
     }
 
     /// @throws Error(usage)
@@ -193,6 +226,8 @@ public:
     std::int64_t interval_ms() const { return ms(tau_); }
 
 private:
+    static constexpr std::size_t most_plan_bytes = 1U << 23;
+
     static std::int64_t ms(const std::string& checked) { return thousandths(checked, 0, 1e9, ""); }
 
     template <class Work>
@@ -206,6 +241,7 @@ private:
 
     std::string codec_, model_, tau_ = "10", speed_ = "1.5", resolution_ = "1", resolution_z_,
                                 area_, datum_, frame_, method_ = "linear", gap_;
+    std::string plan_;
     bool small_ = false, on_surface_ = false;
 };
 

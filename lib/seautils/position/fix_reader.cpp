@@ -171,9 +171,11 @@ void FixReader::Impl::split(std::string_view line) {
 
 /// Whether the cells name columns: then these count from here.
 bool FixReader::Impl::header() {
-    if (std::none_of(cells.begin(), cells.end(),
-                     [](std::string_view cell) { return role_of(cell) == time; }))
-        return false;
+    const auto tells = [this](std::string_view cell) {
+        const std::size_t role = role_of(cell);
+        return options.is_timeless ? role == x || role == latitude : role == time;
+    };
+    if (std::none_of(cells.begin(), cells.end(), tells)) return false;
     std::array<std::string_view, roles> taken;
     std::vector<std::size_t> found;
     for (const std::string_view cell : cells) {
@@ -247,7 +249,8 @@ Said FixReader::Impl::object(std::string_view line) {
 }
 
 RawFix FixReader::Impl::fix(const Said& said) {
-    if (!said.is_said[time]) throw DataError("the fix has no time (t, time or time_s)");
+    if (!said.is_said[time] && !options.is_timeless)
+        throw DataError("the fix has no time (t, time or time_s)");
     RawFix fix;
     fix.time_us = said.time_us;
     place(said, fix.place);

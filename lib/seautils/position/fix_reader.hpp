@@ -21,7 +21,7 @@ namespace seautils::position {
 ///
 /// Other columns and keys are passed over. Where a fix has both, x and y count more than latitude
 /// and longitude, z more than depth. CSV: RFC 4180 without line ends in cells; a line that names a
-/// column of time is a header, wherever it stands, and must be there before the first row. An empty
+/// column of time (of waypoints, of x or latitude) is a header, wherever it stands, and must be there before the first row. An empty
 /// cell and JSON's null say nothing.
 class FixReader {
 public:
@@ -35,6 +35,7 @@ public:
         /// For latitude and longitude. Without one they are refused, unless first_is_datum.
         std::optional<Frame> frame;
         bool first_is_datum = false;  ///< the first fix makes a local frame
+        bool is_timeless = false;     ///< waypoints: what says a time is passed over
         bool on_surface = false;      ///< fixes without height are at 0, else refused
     };
 
