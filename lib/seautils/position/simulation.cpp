@@ -94,14 +94,17 @@ LinkReport simulate_link(std::span<const Fix> track, const LinkOptions& options,
     Age age;
     LinkReport report;
     std::map<std::int64_t, std::size_t> number_of;  // by time
-    double bits = 0, header_bits = 0, bytes = 0;
+    double bits = 0, start_bits = 0, header_bits = 0, bytes = 0;
     for (const Fix& fix : track) {
         sender.sample(fix);
         number_of[fix.time_ms] = ++report.sampled;
         if (const auto packet = sender.packet(max_bytes)) {
-            ++report.packets;
-            bits += static_cast<double>(packet->bits);
-            header_bits += static_cast<double>(packet->header_bits);
+            ++(packet->is_start ? report.starts : report.packets);
+            if (packet->is_start)
+                start_bits += static_cast<double>(packet->bits);
+            else
+                bits += static_cast<double>(packet->bits);
+            if (!packet->is_start) header_bits += static_cast<double>(packet->header_bits);
             bytes += static_cast<double>(packet->bytes.size());
             if (!water.loses_packet()) {
                 const Arrival arrival = receiver.packet(packet->bytes);
@@ -117,10 +120,13 @@ LinkReport simulate_link(std::span<const Fix> track, const LinkOptions& options,
         }
         age.slot(report.sampled);
     }
-    const auto n = static_cast<double>(std::max<std::size_t>(report.sampled, 1));
-    report.cost = {bits / n, age.mean(), true};
-    report.header_bits = header_bits / n;
-    report.air_bytes = bytes / n;
+    const auto each = [](double sum, std::size_t of) {
+        return of == 0 ? 0 : sum / static_cast<double>(of);
+    };
+    report.cost = {each(bits, report.packets), age.mean(), true};
+    report.header_bits = each(header_bits, report.packets);
+    report.start_bits = start_bits;
+    report.air_bytes = each(bytes, report.packets + report.starts);
     return report;
 }
 

@@ -41,13 +41,16 @@ LinkCost simulate_arq(double delta_bits, double packet_bits, const Losses& losse
 
 /// What a Sender and a Receiver make of a track.
 struct LinkReport {
-    LinkCost cost;           ///< bits of header and positions; neither check nor filling
+    LinkCost cost;           ///< bits of header and positions of a packet, once the start of the
+                             ///< session is acknowledged; neither check nor filling
     double header_bits = 0;  ///< of these, the header
-    double air_bytes = 0;    ///< for each position sampled, all of it
+    double start_bits = 0;   ///< of all packets before that together
+    double air_bytes = 0;    ///< of a packet, all of it
     std::size_t sampled = 0;
     std::size_t arrived = 0;  ///< when the track ended
-    std::size_t wrong = 0;    ///< of them, other than what was sampled: none
-    std::size_t packets = 0;
+    std::size_t wrong = 0;    ///< other than what was sampled: none
+    std::size_t starts = 0;   ///< packets before the start is acknowledged
+    std::size_t packets = 0;  ///< after that
 };
 
 /// @param track      at least one, in order of time
