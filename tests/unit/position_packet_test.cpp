@@ -16,6 +16,13 @@ std::string text(const entropy::BitString& bits) {
     return text;
 }
 
+/// Without the spaces.
+std::string operator""_bits(const char* text, std::size_t size) {
+    std::string bits(text, size);
+    std::erase(bits, ' ');
+    return bits;
+}
+
 std::string header_text(const PacketHeader& header) {
     entropy::BitString bits;
     put(header, bits);
@@ -31,53 +38,29 @@ TEST(PositionPacket, HashIsOfSplitMix64) {
 TEST(PositionPacket, HeadersAreAsTheGrammarSays) {
     PacketHeader next;
     next.ahead = 1, next.reference_bits = 1, next.reference = 1;
-    EXPECT_EQ(header_text(next),
-              "1"
-              "1"
-              "1");
+    EXPECT_EQ(header_text(next), "1 1"_bits);
     next.is_newest_full = true;
-    EXPECT_EQ(header_text(next),
-              "01"
-              "1"
-              "1");
+    EXPECT_EQ(header_text(next), "000000 01 1 1"_bits);
 
     PacketHeader window;
     window.ahead = window.count = 5, window.reference_bits = 3, window.reference = 6;
-    EXPECT_EQ(header_text(window),
-              "1"
-              "00101"
-              "110"
-              "10");
+    EXPECT_EQ(header_text(window), "00101 110 0"_bits);
     PacketHeader jump = window;
     jump.kind = PacketKind::jump;
-    EXPECT_EQ(header_text(jump),
-              "1"
-              "00101"
-              "110"
-              "0");
+    EXPECT_EQ(header_text(jump), "00101 110 10"_bits);
     PacketHeader peek = window;
     peek.kind = PacketKind::peek, peek.count = 2;
-    EXPECT_EQ(header_text(peek),
-              "1"
-              "00101"
-              "110"
-              "11"
-              "011");
+    EXPECT_EQ(header_text(peek), "00101 110 11 011"_bits);
+    jump.ahead = 64, jump.reference_bits = 7, jump.reference = 2;
+    EXPECT_EQ(header_text(jump), "000000 1 0000001000000 0000010 10"_bits);
     PacketHeader part;
     part.kind = PacketKind::part, part.reference_bits = 4, part.reference = 9, part.count = 3;
-    EXPECT_EQ(header_text(part),
-              "001"
-              "00100"
-              "1001"
-              "011");
+    EXPECT_EQ(header_text(part), "000000 001 00100 1001 011"_bits);
     PacketHeader start;
     start.is_start = true, start.start_ms = 5, start.ahead = 1;
-    EXPECT_EQ(header_text(start),
-              "000"
-              "000" +
-                  std::string(40, '0') +
-                  "101"
-                  "1");
+    EXPECT_EQ(header_text(start), "000000000000"_bits + std::string(40, '0') +
+                                      "101"
+                                      "1");
 }
 
 RC_GTEST_PROP(PositionPacket, AHeaderComesBack, ()) {
@@ -134,7 +117,7 @@ RC_GTEST_PROP(PositionPacket, AFullFixComesBack, ()) {
 
 TEST(PositionPacket, ANewerVersionIsNamed) {
     entropy::BitString bits;
-    bits.put(0, 3);
+    bits.put(0, 9);
     bits.put(packet_version + 1, 3);
     bits.put(0, 60);
     entropy::BitReader in(bits.bytes(), bits.size());

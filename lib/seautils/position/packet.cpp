@@ -16,6 +16,8 @@ namespace {
 
 constexpr unsigned start_bits = 43;
 constexpr unsigned version_bits = 3;
+constexpr unsigned near_zeros = 6;  // that a rare kind of packet begins with
+constexpr std::uint32_t most_near = (1U << near_zeros) - 1;
 constexpr unsigned length_bits = 6;  // of a difference of times
 constexpr std::uint32_t even = 1U << 15;
 
@@ -71,7 +73,7 @@ std::int32_t get_axis(std::int32_t least, std::int32_t most, entropy::Decoder& i
 
 void put_form(const PacketHeader& header, entropy::BitString& out) {
     if (header.ahead == 1) return;
-    if (header.kind == PacketKind::jump) return out.put(false);
+    if (header.kind == PacketKind::window) return out.put(false);
     out.put(true);
     out.put(header.kind == PacketKind::peek);
     if (header.kind == PacketKind::peek) put_gamma(header.count + 1, out);
@@ -81,13 +83,9 @@ void get_form(PacketHeader& header, entropy::BitReader& in) {
     header.kind = PacketKind::window;
     header.count = header.ahead;
     if (header.ahead == 1) return;
-    if (!in.get()) {
-        header.kind = PacketKind::jump;
-        header.count = 1;
-    } else if (in.get()) {
-        header.kind = PacketKind::peek;
-        header.count = get_gamma(most_count + 1, in) - 1;
-    }
+    if (!in.get()) return;
+    header.kind = in.get() ? PacketKind::peek : PacketKind::jump;
+    header.count = header.kind == PacketKind::peek ? get_gamma(most_count + 1, in) - 1 : 1;
 }
 
 void put_part(const PacketHeader& header, entropy::BitString& out) {
@@ -131,6 +129,9 @@ bool marks_full(const PacketHeader& header) {
 }  // namespace
 
 void put(const PacketHeader& header, entropy::BitString& out) {
+    const bool is_plain =
+        header.kind != PacketKind::part && !header.is_start && !header.is_newest_full;
+    if (!is_plain || header.ahead > most_near) out.put(0, near_zeros);
     if (header.kind == PacketKind::part) {
         out.put(1, 3);
         return put_part(header, out);
@@ -141,7 +142,7 @@ void put(const PacketHeader& header, entropy::BitString& out) {
         out.put(static_cast<std::uint64_t>(header.start_ms), start_bits);
     } else if (header.is_newest_full) {
         out.put(1, 2);
-    } else {
+    } else if (header.ahead > most_near) {
         out.put(true);
     }
     put_gamma(header.ahead, out);
@@ -149,19 +150,33 @@ void put(const PacketHeader& header, entropy::BitString& out) {
     put_form(header, out);
 }
 
+namespace {
+
+/// What stands behind the zeros that no near number begins with. @return  whether k follows
+bool get_rare(PacketHeader& header, entropy::BitReader& in) {
+    if (in.get()) return true;
+    header.is_newest_full = in.get();
+    if (header.is_newest_full) return true;
+    if (in.get()) {
+        get_part(header, in);
+        return false;
+    }
+    get_start(header, in);
+    return true;
+}
+
+}  // namespace
+
 PacketHeader get_packet_header(entropy::BitReader& in) {
     PacketHeader header;
-    if (!in.get()) {
-        header.is_newest_full = in.get();
-        if (!header.is_newest_full) {
-            if (in.get()) {
-                get_part(header, in);
-                return header;
-            }
-            get_start(header, in);
-        }
+    unsigned zeros = 0;
+    while (zeros < near_zeros && !in.get()) ++zeros;
+    if (zeros < near_zeros) {
+        header.ahead = static_cast<std::uint32_t>(std::uint64_t{1} << zeros | in.get(zeros));
+    } else {
+        if (!get_rare(header, in)) return header;
+        header.ahead = get_gamma(most_ahead, in);
     }
-    header.ahead = get_gamma(most_ahead, in);
     if (!header.is_start) {
         header.reference_bits = width_of(header.ahead);
         header.reference = static_cast<std::uint32_t>(in.get(header.reference_bits));
@@ -199,7 +214,7 @@ std::size_t least_bytes(const LinkOptions& options) {
     const auto axis = [](std::int32_t least, std::int32_t most) {
         return width_of(static_cast<std::uint64_t>(most - least));
     };
-    constexpr unsigned header = 3 + version_bits + start_bits + 2 * ack_bits;
+    constexpr unsigned header = near_zeros + 3 + version_bits + start_bits + 2 * ack_bits;
     constexpr unsigned time = length_bits + start_bits + 2;
     constexpr unsigned marked = 12 + 2;  // that it is full among others, and the coder's ending
     const unsigned bits = header + time + marked + axis(a.x, b.x) + axis(a.y, b.y) + axis(a.z, b.z);

@@ -44,17 +44,20 @@ enum class PacketKind : std::uint8_t {
 
 /// What stands before the positions.
 ///
-///     1                        the newest position follows by the codec or horizon
-///     01                       the newest position is a full fix (jump, peek, and k = 1)
-///     001                      part
-///     000  version:3 start:43  as with 1, from nothing: start is the time of position 1 in ms. The
-///                              newest is a full fix if it is not in a window
+///     gamma(k)  reference: c bits  form       k = 1 to 63: the usual packet
+///     000000 1  gamma(k)  reference  form     k from 64 on
+///     000000 01  gamma(k)  reference  form    the newest position is a full fix
+///     000000 001  gamma(c)  reference: c bits  gamma(m)                a part, of m positions
+///     000000 000  version:3  start:43  gamma(k)  form                  from nothing; start is the
+///                                             time of position 1 in ms
 ///
-/// Then  gamma(k)  reference: c bits (not from nothing)  and if k > 1: 0 jump, 10 window,
-/// 11 peek gamma(m + 1) with m positions behind the newest; part: gamma(c) reference: c bits
-/// gamma(m). Then positions. A window of one: Codec::encode_alone, or a full fix; all others share
-/// one arithmetic coder. In it, each position of a window or behind a newest one says first whether
-/// it is a full fix (16/65536).
+/// Elias' gamma code of k: one zero less than k has bits, and k. Form, if k > 1: 0 window, 10 jump,
+/// 11 gamma(m + 1) peek with m positions behind the newest. From nothing the newest is a full fix in
+/// a jump or a peek, or if k = 1.
+///
+/// Then positions. The next one alone: Codec::encode_alone(); else all share one arithmetic coder:
+/// the newest of a jump or a peek as a full fix or by the horizon; each of a window, a part or behind
+/// a newest one says first whether it is a full fix (1 with chance 16/65536).
 struct PacketHeader {
     PacketKind kind = PacketKind::window;
     bool is_start = false;  ///< from nothing
@@ -82,7 +85,7 @@ void put_full(const Fix& fix, std::int64_t expected_ms, const LinkOptions& optio
 Fix get_full(std::int64_t expected_ms, const LinkOptions& options, entropy::Decoder& in);
 
 /// Bytes in which any position fits as a full fix, whatever the time and the header: packets of fewer
-/// may never carry some position. 26 with the default options.
+/// may never carry some position. 27 with the default options.
 std::size_t least_bytes(const LinkOptions& options);
 
 /// Fills the bits with zeros so that the check ends with the last byte, and puts it.
