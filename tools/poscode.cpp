@@ -1,5 +1,6 @@
 // poscode - send a vehicle's track in a few bits a fix
 #include "poscode_link.hpp"
+#include "poscode_simulate.hpp"
 #include "poscode_stat.hpp"
 
 #include "seautils/cli/commands.hpp"
@@ -13,5 +14,6 @@ int main(int argc, char** argv) {
     poscode.add("encode", "Pack a track into packets", tools::encode_main);
     poscode.add("decode", "Unpack the positions of packets", tools::decode_main);
     poscode.add("stat", "Say what each codec costs on a track", tools::stat_main);
+    poscode.add("simulate", "Say what a track costs over a lossy link", tools::simulate_main);
     return poscode.main(argc, argv);
 }
