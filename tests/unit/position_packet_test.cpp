@@ -115,6 +115,23 @@ RC_GTEST_PROP(PositionPacket, AFullFixComesBack, ()) {
     RC_ASSERT(get_full(expected, options, decoder) == fix);
 }
 
+// The example of seautils-poscode(5), put together by hand: zeros, start 1714521600000 in 43 bits, 1;
+// no difference of time (000000), 10 + 32768 and -20 + 32768 in 16 bits, -5 + 8192 in 14; zeros.
+TEST(PositionPacket, TheExampleOfTheManual) {
+    LinkOptions options;
+    options.check_bits = 0;
+    Sender sender(options, LinearCodec(), *make_horizon());
+    sender.sample({1'714'521'600'000, {10, -20, -5}});
+    const auto packet = sender.packet(64);
+    ASSERT_TRUE(packet);
+    std::string hex;
+    for (const char c : packet->bytes) {
+        hex += "0123456789abcdef"[static_cast<unsigned char>(c) / 16];
+        hex += "0123456789abcdef"[static_cast<unsigned char>(c) % 16];
+    }
+    EXPECT_EQ(hex, "00031e62e6e001020029ffb1ffb0");
+}
+
 TEST(PositionPacket, ANewerVersionIsNamed) {
     entropy::BitString bits;
     bits.put(0, 9);
