@@ -38,13 +38,15 @@ std::uint32_t get_gamma(std::uint32_t most, entropy::BitReader& in) {
     return static_cast<std::uint32_t>(value);
 }
 
+/// The bits as they are: what is coded first in a coder stands so in the packet. (Its 1 is the lower
+/// half, which is a 0.)
 void put_raw(std::uint64_t value, unsigned width, entropy::Encoder& out) {
-    while (width > 0) out.bit((value >> --width & 1) != 0, even);
+    while (width > 0) out.bit((value >> --width & 1) == 0, even);
 }
 
 std::uint64_t get_raw(unsigned width, entropy::Decoder& in) {
     std::uint64_t value = 0;
-    for (; width > 0; --width) value = value * 2 + (in.bit(even) ? 1 : 0);
+    for (; width > 0; --width) value = value * 2 + (in.bit(even) ? 0 : 1);
     return value;
 }
 
