@@ -50,7 +50,7 @@ END
 }
 
 @test "poscode encode: no packet is larger than was said, and they are as full as may be" {
-    for most in 28 32 64; do
+    for most in 29 32 64; do
         poscode encode --max-bytes $most track.csv > packets
         awk -v most=$most '{ if (length($0) > 2 * most) exit 1 }' packets
         assert_equal "$(poscode decode packets | wc -l)" 60
@@ -189,7 +189,7 @@ poscode: bad.csv:6: time 5 s is not after that of the fix before, 10 s"
 }
 
 @test "poscode: the rules of the house for a command line" {
-    assert_refused 'a command is missing: encode, decode, stat (try --help)' poscode
+    assert_refused 'a command is missing: encode, decode, stat, simulate (try --help)' poscode
     assert_refused "command 'encod' is none of encode, decode, stat (did you mean encode?)" poscode encod x
     assert_refused "command 'stat' must be the first word" poscode -q stat
     assert_refused 'unknown option --slots (try --help)' poscode --slots
