@@ -190,7 +190,7 @@ poscode: bad.csv:6: time 5 s is not after that of the fix before, 10 s"
 
 @test "poscode: the rules of the house for a command line" {
     assert_refused 'a command is missing: encode, decode, stat, simulate (try --help)' poscode
-    assert_refused "command 'encod' is none of encode, decode, stat (did you mean encode?)" poscode encod x
+    assert_refused "command 'encod' is none of encode, decode, stat, simulate (did you mean encode?)" poscode encod x
     assert_refused "command 'stat' must be the first word" poscode -q stat
     assert_refused 'unknown option --slots (try --help)' poscode --slots
     for command in encode decode stat; do
