@@ -168,3 +168,32 @@ decoded() {
     run -64 --separate-stderr poscode decode --id 5 --ack-id 5 packets
     assert_equal "$stderr" 'poscode: options --id and --ack-id are the same'
 }
+
+@test "poscode link: a mission through queue-sched, tdma-slot, mm-serial and a sea that loses 4 of 10 packets: every sample arrives" {
+    skip_if_sanitized 'simulated time is too fast for slow programs'
+    run_quiet timeout 120 "$SEAUTILS_ROOT/examples/track/run" -w 50 -n 60 -k sea
+    assert_output --regexp '^All 60 positions arrived, each as it was sampled, in [0-9]+ packets of which [0-9]+ were lost.$'
+    # By another way than run's own: the fixes, rounded.
+    jq -r '"\(.time_s),\(.x_m),\(.y_m),\(.z_m)"' sea/fixes.ndjson | sed '1i t,x,y,z' > fixes.csv
+    diff <(expected fixes.csv) <(tail -n +2 sea/received.csv | sort)
+    # The sea did lose as many as it says, within what chance makes of it.
+    sent=$(grep -c '"packet":"data"' sea/truth.ndjson)
+    lost=$(grep -c '"outcome":"LOST"' sea/truth.ndjson)
+    assert [ $((lost * 100)) -gt $((sent * 15)) ]
+}
+
+@test "poscode link: the mission of a real vehicle" {
+    skip_if_sanitized 'simulated time is too fast for slow programs'
+    lauv=$SEAUTILS_SHARED/vectors/poscode/real_lauv_20210527_t10.csv
+    [[ -r $lauv ]] || skip 'no shared vectors'
+    run_quiet timeout 120 "$SEAUTILS_ROOT/examples/track/run" -w 100 -n 90 -t "$lauv"
+    assert_output --regexp '^All 90 positions arrived, each as it was sampled, '
+}
+
+@test "examples/track: refuses what it cannot do" {
+    for arguments in '-w 0' '-n 1' '-x' 'more' '-t /none'; do
+        # shellcheck disable=SC2086  # an option and its value
+        run -64 --separate-stderr "$SEAUTILS_ROOT/examples/track/run" $arguments
+        assert_equal "${stderr%%:*}" run
+    done
+}
