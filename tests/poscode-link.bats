@@ -165,6 +165,10 @@ decoded() {
     done
     run -64 --separate-stderr poscode encode --feedback acks -f hex track.csv
     assert_equal "$stderr" 'poscode: option --format: a live link takes messages only'
+    run -64 --separate-stderr poscode encode --feedback acks --clock input track.csv
+    assert_equal "$stderr" 'poscode: a live link goes by a clock, not by the times of its input'
+    run -64 --separate-stderr poscode encode --feedback acks --deltas-per-packet 3 track.csv
+    assert_equal "$stderr" 'poscode: option --deltas-per-packet is for a stream that loses nothing'
     run -64 --separate-stderr poscode decode --id 5 --ack-id 5 packets
     assert_equal "$stderr" 'poscode: options --id and --ack-id are the same'
 }

@@ -63,10 +63,14 @@ END
     poscode encode track.csv > hex
     poscode encode -f delimited track.csv > binary
     poscode encode -f message --id 5 --src 3 --dest 1 track.csv > records
-    diff hex <(jq -r .message.data records | while read -r data; do
-        base64 -d <<< "$data" | digits
-        echo
-    done)
+    # In a record a packet is a message TrackPacket: its id, 5 << 1, and its length come first.
+    diff <(while read -r packet; do printf '0a%02x%s\n' $((${#packet} / 2)) "$packet"; done < hex) <(
+        jq -r .message.data records | while read -r data; do
+            base64 -d <<< "$data" | digits
+            echo
+        done
+    )
+    diff <(poscode decode hex) <(poscode decode -F ndjson --id 5 records)
     diff <(poscode decode hex) <(poscode decode -F delimited binary)
     run jq -c '[.message.id, .message.src, .message.dest, .time == .message.created]' records
     assert_line --index 0 '[5,3,1,true]'
@@ -208,7 +212,7 @@ poscode: bad.csv:6: time 5 s is not after that of the fix before, 10 s"
         run_quiet poscode $command --help
         assert_line "Usage: poscode $command [OPTION]... [FILE]..."
         assert_line 'The manual: man poscode'
-        assert [ "${#lines[@]}" -le 45 ]
+        assert [ "${#lines[@]}" -le 50 ]
         for line in "${lines[@]}"; do [[ ${#line} -le 100 ]] || fail "$line"; done
     done
     assert_refused "option --gap: '0' is outside 0.001 to 86400000 s" poscode encode --gap 0

@@ -219,6 +219,14 @@ inline int encode_main(int argc, char** argv) {
             io.format = "message";
         if (live.is_live() && io.format != "message")
             throw Error(ExitCode::usage, "option --format: a live link takes messages only");
+        if (live.is_live() && io.clock.is_input())
+            throw Error(ExitCode::usage,
+                        "a live link goes by a clock, not by the times of its input");
+        if (live.is_live() && options.id == live.ack_id)
+            throw Error(ExitCode::usage, "options --id and --ack-id are the same");
+        if (live.is_live() && options.deltas_per_packet != 0)
+            throw Error(ExitCode::usage,
+                        "option --deltas-per-packet is for a stream that loses nothing");
         options.check(io.format == "message");
         live.is_live() ? LiveEncode(io, options, live).run() : Encode(io, options).run();
     });

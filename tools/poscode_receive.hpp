@@ -84,7 +84,9 @@ private:
 
     /// On the air it is nothing strange that a packet comes too late to be of use.
     void record(std::string_view bytes) {
-        take_parts(io_, records_.read(bytes), options_.ids, options_.ids.packet,
+        const record::Record& record = records_.read(bytes);
+        if (io_.clock.is_input()) io_.clock.advance(record.time.ns);
+        take_parts(io_, record, options_.ids, options_.ids.packet,
                    [this](std::uint32_t src, std::string_view packet_bytes) {
                        if (options_.from != 0 && src != options_.from) return;
                        const std::string why = packet(packet_bytes, src);
