@@ -39,6 +39,7 @@ water() {
 # link LOSS SEED: FIFOs `sent` to `arrived` and `acks_sent` to `acks`, held open.
 link() {
     mkfifo sent arrived acks_sent acks
+    # shellcheck disable=SC2034  # only held open
     exec {hold_1}<> sent {hold_2}<> arrived {hold_3}<> acks_sent {hold_4}<> acks
     water "$1" "$2" sent arrived
     water "$1" "$2$2" acks_sent acks
@@ -161,6 +162,7 @@ decoded() {
     for option in '--state x' --newest --auto --history '--every 3' '--linger 3'; do
         # shellcheck disable=SC2086  # an option and its value
         run -64 --separate-stderr poscode encode $option track.csv
+        # shellcheck disable=SC2154  # run sets it
         assert_equal "$stderr" 'poscode: options --state, --history, --newest, --auto, --every and --linger need --feedback or --send'
     done
     run -64 --separate-stderr poscode encode --feedback acks -f hex track.csv
