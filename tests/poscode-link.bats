@@ -1,5 +1,6 @@
 #!/usr/bin/env bats
 # poscode over a link that loses packets: what is decoded is what was sampled, or it is not there.
+# shellcheck disable=SC2030,SC2031,SC2034,SC2154  # each test runs alone; held open only; run sets it
 
 setup() {
     load test_helper
@@ -39,7 +40,6 @@ water() {
 # link LOSS SEED: FIFOs `sent` to `arrived` and `acks_sent` to `acks`, held open.
 link() {
     mkfifo sent arrived acks_sent acks
-    # shellcheck disable=SC2034  # only held open
     exec {hold_1}<> sent {hold_2}<> arrived {hold_3}<> acks_sent {hold_4}<> acks
     water "$1" "$2" sent arrived
     water "$1" "$2$2" acks_sent acks
@@ -158,11 +158,73 @@ decoded() {
     assert_output ''
 }
 
+@test "poscode encode: packets go for each sample, while none is acknowledged, and when a slot begins" {
+    mkfifo fixes acks
+    exec {hold_1}<> acks
+    poscode encode --feedback acks --src 2 --every 3600 -F csv < fixes > sent 2> encode.log 3>&- &
+    started+=($!)
+    exec {feed}> fixes
+    packets() { # N: there are so many
+        for ((k = 0; k < 100; ++k)); do
+            [[ $(wc -l < sent) -lt $1 ]] || break
+            sleep 0.02
+        done
+        sleep 0.1
+        assert_equal "$(wc -l < sent)" "$1"
+    }
+    head -2 track.csv >&"$feed" # a sample is complete when its fix is there
+    packets 1
+    sed -n 3p track.csv >&"$feed"
+    packets 2
+    slot='{"time":"2024-05-01T12:00:00Z","slot":{"src":%d,"kind":"%s","start":"2024-05-01T12:00:00Z","end":"2024-05-01T12:00:10Z","frames":1,"frame_bytes":64}}\n'
+    # shellcheck disable=SC2059  # the format is ours
+    printf "$slot" 2 DATA > acks
+    packets 3
+    # shellcheck disable=SC2059
+    printf "$slot" 1 DATA > acks
+    # shellcheck disable=SC2059
+    printf "$slot" 2 PING > acks
+    packets 3
+    # What is not acknowledged is sent again, so that the same is decoded from each.
+    poscode decode -F ndjson -f csv sent > got
+    diff <(expected <(head -3 track.csv)) <(decoded)
+}
+
+@test "poscode encode: without any acknowledgement it goes on until --linger" {
+    run -0 --separate-stderr timeout 30 poscode encode --feedback acks --src 2 --every 0.05 --linger 0.5 track.csv
+    assert_equal "$stderr" 'poscode: 60 positions not acknowledged'
+    assert [ "${#lines[@]}" -ge 5 ]
+    assert [ "${#lines[@]}" -le 12 ]
+}
+
+@test "poscode link: where nothing can be kept, nothing leaves" {
+    run -73 --separate-stderr timeout 30 poscode encode --feedback acks --src 2 --linger 1 --state none/state track.csv
+    assert_output ''
+    assert_equal "$stderr" 'poscode: none/state.new: No such file or directory'
+    poscode encode -f message --src 2 track.csv > packets
+    mkfifo acks_sent
+    exec {hold_1}<> acks_sent
+    run -73 --separate-stderr poscode decode -F ndjson --acks acks_sent --state none/state packets
+    assert_equal "$stderr" 'poscode: none/state.new: No such file or directory'
+    run ! timeout 0.2 head -c 1 acks_sent
+    assert_output ''
+}
+
+@test "poscode link: a queue that is not there is as a link that loses all, and is said once" {
+    run -0 --separate-stderr timeout 30 poscode encode --send none.sock --src 2 --every 0.05 --linger 0.3 track.csv
+    assert_output ''
+    assert_equal "$(grep -c none.sock <<< "$stderr")" 1
+    assert_regex "$stderr" '60 positions not acknowledged$'
+    poscode encode -f message --src 2 track.csv > packets
+    run -0 --separate-stderr poscode decode -F ndjson --send none.sock packets
+    assert_equal "${#lines[@]}" 60
+    assert_equal "$(grep -c none.sock <<< "$stderr")" 1
+}
+
 @test "poscode encode: options of a live link need one" {
     for option in '--state x' --newest --auto --history '--every 3' '--linger 3'; do
         # shellcheck disable=SC2086  # an option and its value
         run -64 --separate-stderr poscode encode $option track.csv
-        # shellcheck disable=SC2154  # run sets it
         assert_equal "$stderr" 'poscode: options --state, --history, --newest, --auto, --every and --linger need --feedback or --send'
     done
     run -64 --separate-stderr poscode encode --feedback acks -f hex track.csv
