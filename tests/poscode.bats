@@ -170,6 +170,19 @@ END
     assert_equal "$(head -c 4 x.png | digits)" 89504e47
 }
 
+@test "poscode simulate: a picture, and what is wrong with it" {
+    assert_refused "option --plot: 'x.gif' ends neither in .png nor .svg" poscode simulate --plot x.gif track.csv
+    run -73 --separate-stderr poscode simulate --loss 0.5 --plot none/x.png track.csv
+    assert_equal "$stderr" 'poscode: none/x.png: No such file or directory'
+    command -v gnuplot > /dev/null || skip "gnuplot is not installed"
+    run_quiet poscode simulate --loss 0.8 --loss 0.1 --plot x.svg track.csv
+    for way in full arq-55 arq-256 history newest auto; do
+        assert_equal "$(grep -c ">$way<" x.svg)" 2 # in both panels
+    done
+    run_quiet poscode simulate --loss 0.5 --plot x.png track.csv
+    assert_equal "$(head -c 4 x.png | digits)" 89504e47
+}
+
 @test "poscode: a fix that cannot be used is located, dropped, and makes the status 1" {
     cat > bad.csv << 'END'
 t,x,y,z
