@@ -1,11 +1,10 @@
-// poscode encode and decode over a stream that loses nothing: a file or a pipe.
+// poscode encode over a stream that loses nothing: a file or a pipe.
 #ifndef SEAUTILS_TOOLS_POSCODE_LINK_HPP
 #define SEAUTILS_TOOLS_POSCODE_LINK_HPP
 
+#include "poscode_records.hpp"
 #include "poscode_track.hpp"
-#include "record_io.hpp"
 
-#include "seautils/position/fix_writer.hpp"
 #include "seautils/position/hash.hpp"
 #include "seautils/position/receiver.hpp"
 #include "seautils/position/sender.hpp"
@@ -46,7 +45,7 @@ inline position::LinkOptions link_options(const TrackOptions& track) {
 
 struct EncodeOptions {
     TrackOptions track;
-    std::uint32_t max_bytes = 32, deltas_per_packet = 0, id = 0, src = 0, dest = 0;
+    std::uint32_t max_bytes = 32, deltas_per_packet = 0, id = TrackIds().packet, src = 0, dest = 0;
 
     void add(CLI::App& app) {
         track.add_codec(app);
@@ -56,7 +55,7 @@ struct EncodeOptions {
         app.add_option("--deltas-per-packet", deltas_per_packet,
                        "Send after so many positions, at the latest")
             ->option_text("N");
-        app.add_option("--id", id, "Of message records: their id, 0 to 32767")->option_text("N");
+        app.add_option("--id", id, "Of message records: their id, 110")->option_text("N");
         app.add_option("--src", src, "Of message records: modem ID of this vehicle, 1 to 30")
             ->option_text("ID");
         app.add_option("--dest", dest, "Of message records: of the receiver, 0 to 30; 0: everybody")
@@ -71,12 +70,13 @@ struct EncodeOptions {
                 throw Error(ExitCode::usage, fmt::format("option {}: {} is outside {} to {}",
                                                          option, value, least, most));
         };
-        within("--max-bytes", max_bytes, position::least_bytes(link_options(track)), 2048);
+        within("--max-bytes", max_bytes, position::least_bytes(link_options(track)),
+               messages ? most_wrapped : 2048);
         within("--deltas-per-packet", deltas_per_packet, 0, 1000);
         within("--id", id, 0, 32767);
         within("--src", src, 0, 30);
         within("--dest", dest, 0, 30);
-        if (!messages && (id != 0 || src != 0 || dest != 0))
+        if (!messages && (id != TrackIds().packet || src != 0 || dest != 0))
             throw Error(ExitCode::usage, "options --id, --src and --dest are for --format message");
     }
 };
@@ -205,7 +205,7 @@ private:
         message.src = options_.src;
         message.dest = options_.dest;
         message.created = record.time;
-        message.data = packet.bytes;
+        message.data = wrapped(options_.id, packet.bytes);
         record.kind = std::move(message);
         codec_.write(record, record::Form::ndjson, io_.out.buffer());
         io_.out.commit();
@@ -216,76 +216,6 @@ private:
     PacketFiller filler_;
     record::Codec codec_;
 };
-
-class Decode {
-public:
-    Decode(cli::Io& io, const TrackOptions& track)
-        : io_(io),
-          link_(link_options(track)),
-          codec_(position::make_codec(track.codec_options(track.codec()))),
-          receiver_(link_, *codec_, *position::make_horizon()),
-          writer_(form(io.format), track.grid(), track.frame()) {}
-
-    void run() {
-        writer_.header(io_.out.buffer());
-        const bool binary = io_.input_format == "delimited";
-        io_.for_each(binary ? cli::Framing::delimited : cli::Framing::lines,
-                     [&](std::string_view record) {
-                         if (!binary) stream::from_hex(record, bytes_);
-                         packet(binary ? record : std::string_view(bytes_));
-                     });
-    }
-
-private:
-    static position::FixWriter::Form form(const std::string& name) {
-        using Form = position::FixWriter::Form;
-        return name == "csv" ? Form::csv : name == "delimited" ? Form::delimited : Form::ndjson;
-    }
-
-    void packet(std::string_view bytes) {
-        const position::Arrival arrival = receiver_.packet(bytes);
-        if (arrival.outcome == position::Arrival::Outcome::undecodable)
-            throw DataError(arrival.why);
-        for (const position::Fix& fix : arrival.fixes) {
-            writer_.write(fix.time_ms, fix.cell, io_.out.buffer());
-            io_.out.commit();
-        }
-    }
-
-    cli::Io& io_;
-    position::LinkOptions link_;
-    std::unique_ptr<position::Codec> codec_;
-    position::Receiver receiver_;
-    position::FixWriter writer_;
-    std::string bytes_;
-};
-
-inline int encode_main(int argc, char** argv) {
-    EncodeOptions options;
-    cli::App app{"poscode encode",
-                 "Pack a vehicle's track into packets of a few bits a fix.",
-                 "  poscode encode --tau 10 --max-bytes 32 track.csv > packets.hex\n",
-                 {.config = true}};
-    app.input_formats(fix_formats);
-    app.output_formats({"hex", "delimited", "message"});
-    options.add(app.options());
-    return app.main(argc, argv, [&](cli::Io& io) {
-        options.check(io.format == "message");
-        Encode(io, options).run();
-    });
-}
-
-inline int decode_main(int argc, char** argv) {
-    TrackOptions track;
-    cli::App app{"poscode decode",
-                 "Unpack the positions of packets.",
-                 "  poscode decode --tau 10 --format csv packets.hex\n",
-                 {.config = true}};
-    app.input_formats({"hex", "delimited"});
-    app.output_formats({"ndjson", "csv", "delimited"});
-    track.add_codec(app.options());
-    return app.main(argc, argv, [&](cli::Io& io) { Decode(io, track).run(); });
-}
 
 }  // namespace seautils::tools
 
