@@ -6,15 +6,11 @@
 #include "poscode_track.hpp"
 
 #include "seautils/position/hash.hpp"
+#include "seautils/position/packet_filler.hpp"
 #include "seautils/position/receiver.hpp"
-#include "seautils/position/sender.hpp"
-#include "seautils/position/track_state.hpp"
 #include "seautils/stream/hex.hpp"
 
-#include <bit>
 #include <memory>
-#include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -81,101 +77,20 @@ struct EncodeOptions {
     }
 };
 
-/// Puts samples into packets as full as may be: knows from a trial what still fits. Each packet is
-/// decoded at once, as the receiver will, so that the next one builds on it.
-class PacketFiller {
-public:
-    explicit PacketFiller(const EncodeOptions& options)
-        : options_(options),
-          link_(link_options(options.track)),
-          codec_(position::make_codec(options.track.codec_options(options.track.codec()))),
-          horizon_(position::make_horizon()),
-          sender_(link_, *codec_, *horizon_),
-          receiver_(link_, *codec_, *horizon_) {}
-
-    /// @return packets that are complete now, until the next call
-    const std::vector<position::Packet>& add(const position::Sample& sample) {
-        complete_.clear();
-        const position::Fix fix{sample.time_ms, sample.cell};
-        if (!state_) state_.emplace(link_, *codec_, *horizon_, fix.time_ms);
-        if (!put(fix)) {
-            send();
-            put(fix);  // alone it fits: least_bytes()
-        }
-        waiting_.push_back(fix);
-        if (waiting_.size() == options_.deltas_per_packet) send();
-        return complete_;
-    }
-    /// The rest.
-    const std::vector<position::Packet>& finish() {
-        complete_.clear();
-        if (!waiting_.empty()) send();
-        return complete_;
-    }
-
-private:
-    /// Whether it fits behind those that wait.
-    bool put(const position::Fix& fix) {
-        position::TrackState next(*state_);
-        next.encode(next.step_to(fix, 1), coder_);
-        const std::size_t bits = header_bits() + bits_.size() + coder_.ending_bits();
-        const std::size_t most = 8 * options_.max_bytes - link_.check_bits;
-        if (bits > most && !waiting_.empty()) return false;
-        *state_ = std::move(next);
-        return true;
-    }
-
-    std::size_t header_bits() const {
-        position::PacketHeader header;
-        header.is_start = !is_started_;
-        header.ahead = static_cast<std::uint32_t>(waiting_.size() + 1);
-        header.count = header.ahead;
-        header.reference_bits = static_cast<unsigned>(std::bit_width(header.ahead));
-        entropy::BitString bits;
-        position::put(header, bits);
-        return bits.size();
-    }
-
-    void send() {
-        for (const position::Fix& fix : waiting_) sender_.sample(fix);
-        auto packet = sender_.packet(options_.max_bytes);
-        if (!packet || packet->positions != waiting_.size())
-            throw std::logic_error("positions that should fit do not");
-        const position::Arrival arrival = receiver_.packet(packet->bytes);
-        if (arrival.fixes != waiting_)
-            throw std::logic_error("what was decoded is not what was coded");
-        if (sender_.acknowledge(arrival.ack) != position::Sender::Heard::advanced)
-            throw std::logic_error("what was decoded is not acknowledged");
-        complete_.push_back(std::move(*packet));
-        waiting_.clear();
-        bits_.clear();
-        coder_ = entropy::Encoder(bits_);
-        is_started_ = true;
-    }
-
-    const EncodeOptions& options_;
-    position::LinkOptions link_;
-    std::unique_ptr<position::Codec> codec_;
-    std::unique_ptr<position::Horizon> horizon_;
-    position::Sender sender_;
-    position::Receiver receiver_;
-    std::optional<position::TrackState> state_;  ///< behind those that wait
-    bool is_started_ = false;
-    std::vector<position::Fix> waiting_;
-    entropy::BitString bits_;
-    entropy::Encoder coder_{bits_};
-    std::vector<position::Packet> complete_;
-};
-
 class Encode {
 public:
     Encode(cli::Io& io, const EncodeOptions& options)
-        : io_(io), options_(options), filler_(options) {}
+        : io_(io),
+          options_(options),
+          filler_(link_options(options.track),
+                  *position::make_codec(options.track.codec_options(options.track.codec())),
+                  *position::make_horizon(), options.max_bytes, options.deltas_per_packet) {}
 
     void run() {
         for_each_sample(io_, position::FixReader(options_.track.reading(io_.input_format)),
-                        options_.track.sampling(),
-                        [this](const position::Sample& sample) { write(filler_.add(sample)); });
+                        options_.track.sampling(), [this](const position::Sample& sample) {
+                            write(filler_.add({sample.time_ms, sample.cell}));
+                        });
         write(filler_.finish());
     }
 
@@ -213,7 +128,7 @@ private:
 
     cli::Io& io_;
     const EncodeOptions& options_;
-    PacketFiller filler_;
+    position::PacketFiller filler_;
     record::Codec codec_;
 };
 
