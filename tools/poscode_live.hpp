@@ -6,6 +6,7 @@
 #include "poscode_records.hpp"
 
 #include "seautils/cli/loop.hpp"
+#include "seautils/position/sender.hpp"
 
 namespace seautils::tools {
 
