@@ -46,7 +46,7 @@ hear() {
         frame=$(send "$k")
         ((k % 3 != 1)) || continue
         ((k % 4 == 0)) && said=acks || said=lost
-        run_quiet dccl-decode -s brief.proto --position-state heard --position-acks $said <<< "$frame"
+        run_quiet dccl-decode -s brief.proto --position-state heard --position-acks "$said" <<< "$frame"
         assert_output "$(brief "$k")"
     done
     assert [ "$(wc -l < acks)" -eq 5 ]
