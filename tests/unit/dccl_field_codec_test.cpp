@@ -148,7 +148,7 @@ TEST(DcclFieldCodec, ElementsAndMembersOfAOneof) {
     EXPECT_EQ(list.program->body_max_bits(), 7U + 2 + 3 * 10 + 10);
     Link choice(R"(oneof what { Count count = 2 [(dccl.field).codec = "test.unary"];
         int32 other = 4 [(dccl.field) = { min: 0 max: 7 }]; })");
-    for (const std::string said : {R"({"count":{"n":4},"after":5})", R"({"after":5,"other":2})"})
+    for (const std::string said : {R"({"count":{"n":4},"after":5})", R"({"other":2,"after":5})"})
         EXPECT_EQ(choice.decode(choice.encode(said)), said);
 }
 

@@ -15,13 +15,12 @@
 namespace seautils {
 namespace {
 
-/// Bytes of the messages of the GLINT and CCL sea trials; of the two of a track, as documented.
+/// Bytes of the messages of the GLINT and CCL sea trials.
 const std::map<std::string, std::uint64_t> published{
-    {"DeployCommand", 31},  {"ProsecuteCommand", 31}, {"Status", 27},
-    {"StatusFillIn", 29},   {"Contact", 29},          {"Track", 29},
-    {"Ctd", 256},           {"BeamTimeRecord", 64},   {"DebugPoke", 32},
-    {"SurfaceDeploy", 13},  {"SourceActivation", 5},  {"WinchControl", 3},
-    {"PositionPacket", 64}, {"PositionAck", 9}};
+    {"DeployCommand", 31}, {"ProsecuteCommand", 31}, {"Status", 27},
+    {"StatusFillIn", 29},  {"Contact", 29},          {"Track", 29},
+    {"Ctd", 256},          {"BeamTimeRecord", 64},   {"DebugPoke", 32},
+    {"SurfaceDeploy", 13}, {"SourceActivation", 5},  {"WinchControl", 3}};
 
 struct Own {
     Own() {
@@ -89,9 +88,6 @@ const std::map<std::string, std::string> said{
      R"({"time_s":1714564825.3,"src":7,"dest":0,"x_m":1,"y_m":2,"sample":[{"offset_s":0,"depth_m":0.5,)"
      R"("temperature_c":21.344,"salinity":38.016},{"offset_s":4095,"depth_m":512.3,"salinity":65}]})"},
     {"DebugPoke", R"({"time_s":1714564825.3,"src":1,"dest":7,"variable":"GAIN","number":-0.125})"},
-    {"PositionPacket",
-     R"({"src":7,"dest":0,"packet":"AAECAwQFBgcICQoLDA0ODxAREhMUFRYXGBkaGxwdHh8gISIjJCUmJygpKissLS4vMDEyMzQ1Njc4OTo7"})"},
-    {"PositionAck", R"({"dest":7,"ack":"AAH9Lg=="})"},
     {"SurfaceDeploy",
      R"({"time_s":1714564825.3,"src":1,"dest":7,"command_id":5,"x_m":-0.5,"y_m":99999.9,"speed_mps":12.4,)"
      R"("radius_m":1260})"},
