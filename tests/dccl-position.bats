@@ -153,7 +153,7 @@ hear() {
     done > receptions
     run_quiet dccl-decode -s brief.proto --records --position-state heard --position-acks acks receptions
     assert_output "$(brief 3)"$'\n'"$(brief 5)"
-    assert_equal "$(cut -d, -f1 acks)" '{"dest":3'$'\n''{"dest":5'
+    assert_equal "$(cut -d, -f1 acks)" '{"@dest":3'$'\n''{"@dest":5'
     # Each goes on from its own.
     for vehicle in 3 5; do
         run_quiet dccl-encode -s brief.proto --position-state sent.$vehicle --position-acks acks <<< "$(brief $((vehicle + 1)))"

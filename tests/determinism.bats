@@ -5,7 +5,7 @@ setup() {
     load test_helper
     cd "$BATS_TEST_TMPDIR" || return
     cp -r "$BATS_TEST_DIRNAME/data/schemas"/. "$SEAUTILS_ROOT/examples" "$SEAUTILS_ROOT/schemas" .
-    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log,track.csv} .
+    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log,track.csv,cast.csv} .
     poscode encode --datum 60,5 track.csv > track.hex
     printf %s 'correct horse' > passphrase
     # messages of all kinds, some of them bad
@@ -16,6 +16,15 @@ setup() {
             printf "{\"@type\":\"fleet.Ping\",\"seq\":%d}\n", k % 300
         }
     }' > in.ndjson
+    # a glider's yo-yo, by its conductivity
+    awk 'BEGIN {
+        print "time,pressure_dbar,temperature_c,conductivity_spm,lat"
+        for (k = 0; k < 3000; ++k) {
+            p = k % 600 < 300 ? k % 300 : 300 - k % 300
+            printf "%d.5,%.2f,%.3f,%.4f,%.3f\n", 1714521600 + 7 * k, p * 0.9, 17 - p / 30, 4.4 - p / 400, 43 + k / 1e5
+        }
+    }' > yoyo.csv
+    printf '%s\n' 'every = 600' 'bin = 2' 'extend = 1500' > ssp.conf
     types=(-s nav.proto -s fleet)
     dccl-encode "${types[@]}" in.ndjson > in.hex 2> /dev/null || [[ $? -eq 1 ]]
     dccl-encode "${types[@]}" -f raw in.ndjson > in.raw 2> /dev/null || [[ $? -eq 1 ]]
@@ -42,6 +51,8 @@ poscode encode track.csv
 poscode encode --codec kalman -f message --deltas-per-packet 7 track.csv
 poscode stat --format csv --deltas-per-packet 3 track.csv
 poscode decode --format csv --datum 60,5 track.hex
+ssp -c ssp.conf --climatology cast.csv -v yoyo.csv
+ssp --split leg --formula del-grosso -f csv yoyo.csv
 queue-sched -c queues.conf --clock input --explain --stats link.ndjson
 tdma-slot --slot src=1,length=15 --slot src=2,length=20,kind=ping,dest=1 --id 2 --from 2024-05-01T23:00:00Z --to 2024-05-02T01:00:00Z
 tdma-slot --subsets 3 --runs 5 --p-collide 0.7 --limit 1000 --seed 9

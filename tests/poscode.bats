@@ -63,10 +63,14 @@ END
     poscode encode track.csv > hex
     poscode encode -f delimited track.csv > binary
     poscode encode -f message --id 5 --src 3 --dest 1 track.csv > records
-    diff hex <(jq -r .message.data records | while read -r data; do
-        base64 -d <<< "$data" | digits
-        echo
-    done)
+    # In a record a packet is a message TrackPacket: its id, 5 << 1, and its length come first.
+    diff <(while read -r packet; do printf '0a%02x%s\n' $((${#packet} / 2)) "$packet"; done < hex) <(
+        jq -r .message.data records | while read -r data; do
+            base64 -d <<< "$data" | digits
+            echo
+        done
+    )
+    diff <(poscode decode hex) <(poscode decode -F ndjson --id 5 records)
     diff <(poscode decode hex) <(poscode decode -F delimited binary)
     run jq -c '[.message.id, .message.src, .message.dest, .time == .message.created]' records
     assert_line --index 0 '[5,3,1,true]'
@@ -166,6 +170,19 @@ END
     assert_equal "$(head -c 4 x.png | digits)" 89504e47
 }
 
+@test "poscode simulate: a picture, and what is wrong with it" {
+    assert_refused "option --plot: 'x.gif' ends neither in .png nor .svg" poscode simulate --plot x.gif track.csv
+    run -73 --separate-stderr poscode simulate --loss 0.5 --plot none/x.png track.csv
+    assert_equal "$stderr" 'poscode: none/x.png: No such file or directory'
+    command -v gnuplot > /dev/null || skip "gnuplot is not installed"
+    run_quiet poscode simulate --loss 0.8 --loss 0.1 --plot x.svg track.csv
+    for way in full arq-55 arq-256 history newest auto; do
+        assert_equal "$(grep -c ">$way<" x.svg)" 2 # in both panels
+    done
+    run_quiet poscode simulate --loss 0.5 --plot x.png track.csv
+    assert_equal "$(head -c 4 x.png | digits)" 89504e47
+}
+
 @test "poscode: a fix that cannot be used is located, dropped, and makes the status 1" {
     cat > bad.csv << 'END'
 t,x,y,z
@@ -208,7 +225,7 @@ poscode: bad.csv:6: time 5 s is not after that of the fix before, 10 s"
         run_quiet poscode $command --help
         assert_line "Usage: poscode $command [OPTION]... [FILE]..."
         assert_line 'The manual: man poscode'
-        assert [ "${#lines[@]}" -le 45 ]
+        assert [ "${#lines[@]}" -le 50 ]
         for line in "${lines[@]}"; do [[ ${#line} -le 100 ]] || fail "$line"; done
     done
     assert_refused "option --gap: '0' is outside 0.001 to 86400000 s" poscode encode --gap 0

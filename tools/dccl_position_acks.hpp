@@ -1,4 +1,4 @@
-// Acknowledgements of positions: lines of JSON as messages seautils.PositionAck are written in.
+// Acknowledgements of positions: lines of JSON as messages seautils.TrackAck are written in.
 #ifndef SEAUTILS_TOOLS_DCCL_POSITION_ACKS_HPP
 #define SEAUTILS_TOOLS_DCCL_POSITION_ACKS_HPP
 
@@ -27,7 +27,7 @@ public:
     /// @param path  empty: there are none
     PositionAcks(std::string path, cli::Io& io) : path_(std::move(path)), io_(io) {
         schema::Layout layout;
-        layout.full_name = "seautils.PositionAck";
+        layout.full_name = "seautils.TrackAck";
         schema::Field ack;
         ack.name = ack.json_name = "ack";
         ack.number = 2;
@@ -63,7 +63,7 @@ public:
         if (path_.empty()) return;
         // For reading too: so a FIFO without a reader keeps what it can.
         open(O_RDWR | O_APPEND | O_CREAT);
-        std::string line = "{\"dest\":" + std::to_string(dest) + ",\"ack\":\"";
+        std::string line = "{\"@dest\":" + std::to_string(dest) + ",\"ack\":\"";
         append_base64(line, ack);
         line += "\"}\n";
         if (!stream::try_write(fd_, line)) io_.inform(path_ + ": full, acknowledgement dropped");

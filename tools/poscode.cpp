@@ -1,5 +1,6 @@
 // poscode - send a vehicle's track in a few bits a fix
-#include "poscode_link.hpp"
+#include "poscode_live.hpp"
+#include "poscode_receive.hpp"
 #include "poscode_simulate.hpp"
 #include "poscode_stat.hpp"
 

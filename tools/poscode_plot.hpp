@@ -1,4 +1,4 @@
-// The picture of poscode stat, by gnuplot.
+// The pictures of poscode stat and simulate, by gnuplot.
 #ifndef SEAUTILS_TOOLS_POSCODE_PLOT_HPP
 #define SEAUTILS_TOOLS_POSCODE_PLOT_HPP
 
@@ -34,6 +34,15 @@ public:
         std::string title;
         std::vector<std::uint64_t> deltas_by_bits;
     };
+    /// What a way of sending costs, by the chance of loss.
+    struct Way {
+        struct Point {
+            double loss = 0, bits = 0, age = 0;
+            bool is_stable = true;  ///< else there is no age
+        };
+        std::string title;
+        std::vector<Point> points;
+    };
 
     /// @throws Error(usage)  neither .png nor .svg
     static Target target(const std::string& file) {
@@ -46,11 +55,21 @@ public:
 
     /// @throws Error(cannot_create), Error(unavailable)  gnuplot is not there
     static void draw(const Target& target, const std::vector<Curve>& curves) {
+        draw(target, script(target, curves));
+    }
+    static void draw(const Target& target, const std::vector<Way>& ways) {
+        draw(target, script(target, ways));
+    }
+
+private:
+    static constexpr int not_there = 127;
+
+    static void draw(const Target& target, const std::string& drawing) {
         const int picture =
             ::open(target.file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (picture < 0)
             throw Error(ExitCode::cannot_create, target.file + ": " + std::strerror(errno));
-        const int status = run_gnuplot(script(target, curves), picture);
+        const int status = run_gnuplot(drawing, picture);
         ::close(picture);
         if (status == 0) return;
         ::unlink(target.file.c_str());
@@ -58,9 +77,6 @@ public:
             throw Error(ExitCode::unavailable, "option --plot needs gnuplot (package gnuplot-nox)");
         throw Error(ExitCode::io, target.file + ": gnuplot could not draw it");
     }
-
-private:
-    static constexpr int not_there = 127;
 
     /// Colours that people of any colour vision tell apart (Okabe and Ito 2008), and dashes.
     static std::string style(std::size_t k) {
@@ -85,6 +101,28 @@ private:
                                 k, curves[k].title, style(k));
         }
         return text + "plot [0:][0:]" + list + "\n";
+    }
+
+    static std::string script(const Target& target, const std::vector<Way>& ways) {
+        std::string text = "set terminal " + target.terminal +
+                           "\nset encoding utf8\nset grid\nset key top left\n"
+                           "set xlabel 'packets lost, share'\n";
+        std::string bits, age;
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+            text += fmt::format("$w{} << END\n", k);
+            for (const Way::Point& point : ways[k].points) {
+                text += fmt::format("{:.4f} {:.3f} {}\n", point.loss, point.bits,
+                                    point.is_stable ? fmt::format("{:.3f}", point.age) : "NaN");
+            }
+            text += "END\n";
+            const std::string how =
+                fmt::format("with linespoints pt {} title '{}' {}", k + 1, ways[k].title, style(k));
+            bits += fmt::format("{} $w{} using 1:2 {}", k == 0 ? "" : ",", k, how);
+            age += fmt::format("{} $w{} using 1:3 {}", k == 0 ? "" : ",", k, how);
+        }
+        return text + "set multiplot layout 1,2\nset ylabel 'bits a position'\nplot [][0:]" + bits +
+               "\nset ylabel 'age of the newest position, intervals'\nplot [][0:]" + age +
+               "\nunset multiplot\n";
     }
 
     /// @return its status; 127: it is not there

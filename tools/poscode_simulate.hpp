@@ -2,10 +2,12 @@
 #ifndef SEAUTILS_TOOLS_POSCODE_SIMULATE_HPP
 #define SEAUTILS_TOOLS_POSCODE_SIMULATE_HPP
 
+#include "poscode_plot.hpp"
 #include "poscode_track.hpp"
 
 #include "seautils/position/simulation.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ struct SimulateOptions {
     double ack_loss = 0, delta_bits = 11.1, full_bits = 55;
     bool acks_as_data = false;
     std::uint32_t max_bytes = 34;
+    std::string plot;
 
     void add(CLI::App& app) {
         track.add_codec(app);
@@ -36,6 +39,8 @@ struct SimulateOptions {
         app.add_option("--max-bytes", max_bytes, "Of a packet with its check, 34")
             ->check(CLI::Range(8, 2048))
             ->option_text("N");
+        app.add_option("--plot", plot, "Draw cost and age against loss: .png or .svg")
+            ->option_text("FILE");
     }
 };
 
@@ -46,12 +51,14 @@ public:
     }
 
     void run() {
+        const Plot::Target target = Plot::target(options_.plot);
         read();
         codec_ = position::make_codec(options_.track.codec_options(options_.track.codec()));
         if (io_.format == "text")
             io_.out << "loss  acks  way           bits a position  age, intervals  arrived\n";
         if (io_.format == "csv") io_.out << "loss,ack_loss,way,bits,age,stable,arrived\n";
         for (const double loss : options_.losses) all_ways(loss);
+        if (target.is_wanted()) Plot::draw(target, ways_);
     }
 
 private:
@@ -98,6 +105,7 @@ private:
 
     void say(const position::Losses& losses, const std::string& way, const position::LinkCost& cost,
              std::optional<std::size_t> arrived) {
+        note(losses, way, cost);
         const std::string share =
             arrived ? fmt::format("{:.4f}", static_cast<double>(*arrived) /
                                                 static_cast<double>(track_.size()))
@@ -120,8 +128,22 @@ private:
         }
     }
 
+    /// For the picture.
+    void note(const position::Losses& losses, const std::string& name,
+              const position::LinkCost& cost) {
+        auto way = std::find_if(ways_.begin(), ways_.end(),
+                                [&](const Plot::Way& known) { return known.title == name; });
+        if (way == ways_.end()) way = ways_.insert(way, {name, {}});
+        const Plot::Way::Point point{losses.packet, cost.bits, cost.age, cost.is_stable};
+        const auto place = std::upper_bound(
+            way->points.begin(), way->points.end(), point,
+            [](const auto& one, const auto& other) { return one.loss < other.loss; });
+        way->points.insert(place, point);
+    }
+
     cli::Io& io_;
     SimulateOptions options_;
+    std::vector<Plot::Way> ways_;
     std::vector<position::Fix> track_;
     std::unique_ptr<position::Codec> codec_;
 };

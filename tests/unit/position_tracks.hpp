@@ -59,16 +59,16 @@ inline std::vector<TimedCell> track_of(const std::string& file) {
 
 inline bool shared_tracks() { return std::filesystem::exists(vectors_folder() + "/expected.json"); }
 
-using Run = std::vector<Cell>;
+using StraightRun = std::vector<Cell>;  ///< positions without a gap
 
 struct ReferenceTrack {
     std::string file;
-    std::vector<Run> runs;                          ///< without gaps
+    std::vector<StraightRun> runs;                  ///< without gaps
     double thesis_alone = 0, alone = 0, eight = 0;  ///< bits a delta: reference figures
 };
 
-inline std::vector<Run> runs_of(const std::vector<TimedCell>& fixes, double tau_s) {
-    std::vector<Run> runs;
+inline std::vector<StraightRun> runs_of(const std::vector<TimedCell>& fixes, double tau_s) {
+    std::vector<StraightRun> runs;
     double last_s = -1e18;
     for (const TimedCell& fix : fixes) {
         if (fix.time_s - last_s > 1.5 * tau_s) runs.emplace_back();
@@ -96,11 +96,11 @@ inline std::vector<ReferenceTrack> reference_tracks() {
 }
 
 /// What a delta costs with so many a packet (fewer at the end of a run), decoded too.
-inline double bits_a_delta(const std::vector<Run>& runs, const CodecOptions& options,
+inline double bits_a_delta(const std::vector<StraightRun>& runs, const CodecOptions& options,
                            std::size_t per_packet) {
     const auto sender = make_codec(options), receiver = sender->clone();
     std::size_t bits_in_all = 0, deltas = 0;
-    for (const Run& run : runs) {
+    for (const StraightRun& run : runs) {
         sender->restart(run[0]);
         receiver->restart(run[0]);
         for (std::size_t at = 1; at < run.size();) {

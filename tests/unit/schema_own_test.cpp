@@ -15,12 +15,13 @@
 namespace seautils {
 namespace {
 
-/// Bytes of the messages of the GLINT and CCL sea trials.
+/// Bytes of the messages of the GLINT and CCL sea trials; of the two of a track: what it says here.
 const std::map<std::string, std::uint64_t> published{
     {"DeployCommand", 31}, {"ProsecuteCommand", 31}, {"Status", 27},
     {"StatusFillIn", 29},  {"Contact", 29},          {"Track", 29},
     {"Ctd", 256},          {"BeamTimeRecord", 64},   {"DebugPoke", 32},
-    {"SurfaceDeploy", 13}, {"SourceActivation", 5},  {"WinchControl", 3}};
+    {"SurfaceDeploy", 13}, {"SourceActivation", 5},  {"WinchControl", 3},
+    {"TrackPacket", 257},  {"TrackAck", 257}};
 
 struct Own {
     Own() {
@@ -93,7 +94,9 @@ const std::map<std::string, std::string> said{
      R"("radius_m":1260})"},
     {"SourceActivation",
      R"({"dest":7,"sequence":7,"active":false,"waveform":14,"source_level_db":202,"delay_s":62,)"
-     R"("duration_s":1260})"}};
+     R"("duration_s":1260})"},
+    {"TrackPacket", R"({"packet":"AQIDBA=="})"},
+    {"TrackAck", R"({"ack":"/w=="})"}};
 
 }  // namespace
 

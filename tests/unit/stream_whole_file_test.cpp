@@ -19,6 +19,8 @@ TEST(StreamWholeFile, WhatWasPutThereComesBack) {
     replace_file(path, std::string("t\0w", 3));
     EXPECT_EQ(read_whole_file(path, 100), std::string("t\0w", 3));
     EXPECT_EQ(read_whole_file(path, 2), std::string("t\0", 2));
+    replace_file(path, "synced", Sync::yes);
+    EXPECT_EQ(read_whole_file(path, 100), "synced");
     replace_file(path, "");
     EXPECT_EQ(read_whole_file(path, 100), "");
     EXPECT_FALSE(std::filesystem::exists(path + ".new"));
@@ -37,6 +39,8 @@ TEST(StreamWholeFile, WhatCannotBeReadOrMadeIsNamed) {
     const std::string path = folder.path();
     EXPECT_EQ(failure([&] { read_whole_file(path, 10); }), "66 " + path + ": Is a directory");
     EXPECT_EQ(failure([&] { replace_file(folder.file("gone/x"), "x"); }),
+              "73 " + folder.file("gone/x.new") + ": No such file or directory");
+    EXPECT_EQ(failure([&] { replace_file(folder.file("gone/x"), "x", Sync::yes); }),
               "73 " + folder.file("gone/x.new") + ": No such file or directory");
     std::filesystem::create_directory(folder.file("in"));
     EXPECT_EQ(failure([&] { replace_file(folder.file("in"), "x"); }),

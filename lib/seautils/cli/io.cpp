@@ -138,6 +138,10 @@ bool Io::reads_stdin() const {
     return files.empty() || std::find(files.begin(), files.end(), "-") != files.end();
 }
 
+std::uint64_t Io::record_number() const {
+    return impl_->source ? impl_->source->input().count() : 0;
+}
+
 std::uint64_t Io::refused() const { return impl_->refused; }
 
 }  // namespace seautils::cli

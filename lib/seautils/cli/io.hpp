@@ -84,6 +84,9 @@ public:
     /// Whether records come from standard input.
     bool reads_stdin() const;
 
+    /// The line or the record that for_each() is at, from 1 in each file.
+    std::uint64_t record_number() const;
+
     /// Records refused so far.
     std::uint64_t refused() const;
 

@@ -6,7 +6,6 @@ namespace seautils::position {
 
 namespace {
 
-constexpr std::int32_t q16(double v) { return static_cast<std::int32_t>(v * 65536); }
 constexpr std::uint32_t long_ago = 1000;
 constexpr std::uint32_t least_speed = 64;  // 1/4 cell a step has a direction
 
@@ -18,9 +17,9 @@ std::size_t index_of(std::uint32_t run) {
 
 void count(std::uint32_t& n) { n = std::min(n + 1, long_ago); }
 
-/// Whether an innovation is more than `sigmas_q8` of what is to be expected, and `margin_q16` besides.
-bool surprising(std::int64_t square_q16, std::int64_t expected_q16, std::int64_t margin_q16,
-                std::int64_t sigmas_q8) {
+/// Whether the square of an innovation is beyond so many times what is to be expected and a margin.
+bool surprising(std::int64_t square_q16, std::int64_t expected_q16, std::int64_t sigmas_q8) {
+    constexpr std::int64_t margin_q16 = 26214;  // 0.4 cell²
     return square_q16 > (sigmas_q8 * sigmas_q8 * (expected_q16 + margin_q16) >> 16);
 }
 
@@ -31,11 +30,11 @@ std::int32_t to_q8(std::int64_t q16) {
 
 }  // namespace
 
-Motion::Gains::Gains()
-    : slow_xy(q16(0.02), q16(0.12), q16(2)),
-      fast_xy(q16(0.2), q16(0.12), q16(2)),
-      slow_z(q16(0.01), q16(0.1), q16(1)),
-      fast_z(q16(0.1), q16(0.1), q16(1)) {}
+Motion::Gains::Gains()  // Q16: 0.02, 0.12, 2; 0.2, 0.12, 2; 0.01, 0.1, 1; 0.1, 0.1, 1
+    : slow_xy(1310, 7864, 131072),
+      fast_xy(13107, 7864, 131072),
+      slow_z(655, 6553, 65536),
+      fast_z(6553, 6553, 65536) {}
 
 void Motion::restart(const Cell& cell) {
     const Direction kept = heading;
@@ -104,7 +103,7 @@ void Motion::step_plane(const Cell& cell) {
                     {static_cast<std::int32_t>(q8(ex)), static_cast<std::int32_t>(q8(ey))},
                     heading);
             const std::int64_t square = q8(ex) * q8(ex) + q8(ey) * q8(ey);
-            if (f == &fast && f->run >= 1 && surprising(square, g.innovation[run], q16(0.4), 896)) {
+            if (f == &fast && f->run >= 1 && surprising(square, g.innovation[run], 896)) {
                 begin(*f);
                 continue;
             }
@@ -137,7 +136,7 @@ void Motion::step_depth(const Cell& cell) {
         const std::int64_t e8 = clamp(e >> 8, -(1 << 24), 1 << 24);
         if (f == &fast_z) {
             innovation_z = static_cast<std::int32_t>(e8);
-            if (f->run >= 1 && surprising(e8 * e8, g.innovation[run], q16(0.4), 768)) {
+            if (f->run >= 1 && surprising(e8 * e8, g.innovation[run], 768)) {
                 f->z.start(cell.z, step);
                 f->run = 0;
                 since_dive = 0;

@@ -13,6 +13,7 @@ constexpr std::array<std::int32_t, 3> scales{128, 256, 768};  // 0.5, 1, 3
 constexpr std::array<std::int32_t, 4> depth_scales{128, 230, 435, 1024};
 constexpr std::int32_t leg_rate = 3277, share_rate = 1311;  // 0.05, 0.02
 constexpr std::int64_t error_rate_q8 = 13;
+constexpr std::uint32_t patience = 8;  // steps in a row that no leg explains
 
 std::int32_t scaled(std::int32_t v, std::int32_t scale_q8) {
     return static_cast<std::int32_t>(clamp(std::int64_t{v} * scale_q8 >> 8, 0, most_sd));
@@ -27,17 +28,19 @@ std::int64_t squared_distance(const Cell& a, const Cell& b) {
     return x * x + y * y;
 }
 
-/// From a point to the nearest one between two others, squared, over the plane.
+std::int64_t distance(const Cell& a, const Cell& b) {
+    return square_root(static_cast<std::uint64_t>(squared_distance(a, b)));
+}
+
+/// From a point to the nearest one between two others, over the plane.
 std::int64_t distance_to_leg(const Cell& p, const Cell& from, const Cell& to) {
     const std::int64_t dx = to.x - std::int64_t{from.x}, dy = to.y - std::int64_t{from.y};
     const std::int64_t px = p.x - std::int64_t{from.x}, py = p.y - std::int64_t{from.y};
     const std::int64_t along = px * dx + py * dy, size = dx * dx + dy * dy;
-    if (along <= 0) return squared_distance(p, from);
-    if (along >= size) return squared_distance(p, to);
+    if (along <= 0) return distance(p, from);
+    if (along >= size) return distance(p, to);
     const std::int64_t off = px * dy - py * dx;
-    const std::int64_t distance =
-        std::abs(off) / std::max<std::int64_t>(1, square_root(static_cast<std::uint64_t>(size)));
-    return distance * distance;
+    return std::abs(off) / std::max<std::int64_t>(1, square_root(static_cast<std::uint64_t>(size)));
 }
 
 }  // namespace
@@ -51,12 +54,33 @@ std::int64_t PlanModel::mark() const {
 }
 
 void PlanModel::begin(const Cell& cell) {
+    lost_ = 0;
     std::int64_t nearest = INT64_MAX;
-    for (std::size_t k = next_; k < waypoints_.size(); ++k) {
+    const std::size_t first = next_;
+    for (std::size_t k = first; k < waypoints_.size(); ++k) {
+        // The leg to the first waypoint begins anywhere; later legs are as many steps less likely.
         const std::int64_t distance =
-            distance_to_leg(cell, waypoints_[k == 0 ? 0 : k - 1], waypoints_[k]);
-        if (distance >= nearest) continue;
-        nearest = distance;
+            k == 0 ? 0 : distance_to_leg(cell, waypoints_[k - 1], waypoints_[k]);
+        const std::int64_t cost =
+            distance + static_cast<std::int64_t>(k - first) * 2 * speed_ / 256;
+        if (cost >= nearest) continue;
+        nearest = cost;
+        next_ = k;
+    }
+}
+
+void PlanModel::look_around(const Motion& motion) {
+    lost_ = 0;
+    std::int64_t nearest = INT64_MAX;
+    for (std::size_t k = 0; k < waypoints_.size(); ++k) {
+        const std::int64_t distance =
+            k == 0 ? speed_ / 256 : distance_to_leg(motion.last, waypoints_[k - 1], waypoints_[k]);
+        const Direction leg = direction_of(towards(motion, k), 1, motion.heading);
+        const std::int64_t turn =
+            (1 << 14) - into_frame({leg.x, leg.y}, motion.heading).x;  // 1 - cos
+        const std::int64_t cost = distance + (turn * 4 * speed_ >> 22);
+        if (cost >= nearest) continue;
+        nearest = cost;
         next_ = k;
     }
 }
@@ -106,6 +130,9 @@ void PlanModel::learn(const Motion& motion, const PlaneMixture& said, const Mixt
     if (said.size() == 0) return;
     learn_depth(motion, said_depth, step.z);
     learn_plane(motion, said, step);
+    const bool explained = said.probability_q24(step.x, step.y) > one_q24 >> 12;
+    lost_ = explained ? 0 : lost_ + 1;
+    if (lost_ >= patience) look_around(motion);
 }
 
 void PlanModel::learn_plane(const Motion& motion, const PlaneMixture& said, const Cell& step) {
@@ -121,8 +148,8 @@ void PlanModel::learn_plane(const Motion& motion, const PlaneMixture& said, cons
     const Direction d = direction_of(mean, 1, motion.heading);
     const Pair moved{in_q8(step.x), in_q8(step.y)};
     const Pair error = into_frame({moved.x - mean.x, moved.y - mean.y}, d);
-    along_.take(std::int64_t{error.x} * error.x, error_rate_q8);
-    across_.take(std::int64_t{error.y} * error.y, error_rate_q8);
+    along_.take(square(error.x), error_rate_q8);
+    across_.take(square(error.y), error_rate_q8);
     shares_.follow(sizes, share_rate, one_q20 / 100);
     legs_.follow(legs, leg_rate, one_q20 / 20);
     const auto size = static_cast<std::int32_t>(std::min<std::uint32_t>(length(moved), most_mean));
@@ -143,7 +170,7 @@ void PlanModel::learn_depth(const Motion& motion, const Mixture& said, std::int3
     }
     const std::size_t on = legs[1] > legs[0] ? 1 : 0;
     const std::int64_t error = in_q8(step) - depth_towards(motion, next_ + on);
-    depth_error_.take(error * error, error_rate_q8);
+    depth_error_.take(square(error), error_rate_q8);
     depth_shares_.follow(sizes, share_rate, one_q20 / 100);
     depth_legs_.follow(legs, leg_rate, one_q20 / 20);
     const std::int32_t size = std::abs(in_q8(step));

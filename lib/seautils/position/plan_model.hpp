@@ -34,12 +34,15 @@ public:
     template <class Archive>
     void archive(Archive& a) {
         a.count(next_, waypoints_.size());
+        a.number(lost_, 0, 8);
         a.number(speed_, 0, most_mean);
         a.number(rate_, 0, most_mean);
         a.all(along_, across_, depth_error_, legs_, shares_, depth_legs_, depth_shares_);
     }
 
 private:
+    /// Finds the leg anew, of all: the vehicle is on none that was thought of.
+    void look_around(const Motion& motion);
     /// The step towards a waypoint, 1/256 cell.
     Pair towards(const Motion& motion, std::size_t waypoint) const;
     std::int32_t depth_towards(const Motion& motion, std::size_t waypoint) const;
@@ -49,6 +52,7 @@ private:
 
     std::vector<Cell> waypoints_;
     std::size_t next_ = 0;           ///< the waypoint that the vehicle is going to
+    std::uint32_t lost_ = 0;         ///< steps in a row that no leg explained
     std::int32_t speed_ = 10 * 256;  ///< usual step, 1/256 cell
     std::int32_t rate_ = 256;        ///< usual step of z where it changes
     MeanSquare along_, across_, depth_error_;

@@ -20,8 +20,6 @@ Pair in_q8(const Cell& step) {
     return {q8(step.x), q8(step.y)};
 }
 
-std::int64_t square(std::int64_t v) { return v * v; }
-
 constexpr std::array<std::int32_t, 3> filter_scales{154, 307, 768};  // 0.6, 1.2, 3
 constexpr std::array<std::int32_t, 3> analog_scales{60, 160, 700};   // 0.23, 0.63, 2.7
 constexpr std::array<std::int32_t, 4> depth_scales{128, 230, 435, 1024};

@@ -39,6 +39,12 @@ private:
     std::array<std::int32_t, N> share_;
 };
 
+/// The square of a length of 1/256 cell; more than 2^16 cells count as that.
+inline std::int64_t square(std::int64_t length) {
+    const std::int64_t v = clamp(length, -(1 << 24), 1 << 24);
+    return v * v;
+}
+
 /// A running mean of squares of lengths of 1/256 cell.
 class MeanSquare {
 public:

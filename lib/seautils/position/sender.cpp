@@ -22,10 +22,10 @@ struct Sent {
     std::uint64_t mark = 0;
 };
 
-std::size_t bits_of(const PacketHeader& header) {
-    entropy::BitString bits;
-    put(header, bits);
-    return bits.size();
+/// @param count  of the positions one after another
+void set_count(PacketHeader& header, std::uint32_t count) {
+    header.count = count;
+    if (header.kind == PacketKind::window) header.ahead = count;
 }
 
 }  // namespace
@@ -46,6 +46,7 @@ struct Sender::Impl {
     std::uint32_t arriving = all_arrives;
     bool is_newest = false;  ///< only the newest position is sent
     bool is_part_due = false;
+    std::optional<TrackState> next;  ///< the reference, if all of the last packet is acknowledged
 
     Impl(const LinkOptions& o, const Codec& c, const Horizon& h)
         : options(o), codec(c.clone()), horizon(h.clone()), is_newest(o.mode == LinkMode::newest) {}
@@ -67,15 +68,16 @@ struct Sender::Impl {
     std::optional<Packet> part(std::size_t most_bits);
     std::optional<Packet> backlog(std::size_t most_bits);
     PacketHeader header(PacketKind kind, std::uint32_t count) const;
-    std::uint32_t fitting(PacketHeader header, const Step* newest, std::size_t most_bits) const;
-    void put_run(const PacketHeader& header, const Step* newest, entropy::BitString& bits);
-    std::optional<Packet> finish(const PacketHeader& header, const entropy::BitString& bits,
-                                 std::size_t most_bits, const Fix& newest);
-    void note_step(std::size_t place, const Step& step, std::uint64_t mark);
+    std::optional<Packet> run(PacketHeader header, const Step* newest, std::uint32_t least,
+                              std::size_t most_bits);
+    std::optional<Packet> alone(const PacketHeader& header, const Step& step,
+                                std::size_t most_bits);
+    void note_step(std::size_t place, const Sent& sent);
 
     Heard acknowledge(std::string_view ack);
     Heard lost(const Ack& ack, std::string_view bytes);
     bool advance(const Ack& ack, std::string_view bytes);
+    bool adopt(std::uint64_t mark);
     void moved(std::uint64_t number);
 
     std::string save() const;
@@ -84,6 +86,7 @@ struct Sender::Impl {
 
 void Sender::Impl::begin() {
     known.reset();
+    next.reset();
     steps.clear();
     jumps.clear();
     digests.clear();
@@ -94,14 +97,7 @@ void Sender::Impl::begin() {
 }
 
 void Sender::Impl::sample(const Fix& fix) {
-    if (fix.time_ms < 0 || fix.time_ms > most_time_ms)
-        throw DataError(fmt::format("time {} ms is outside 0 to {} ms", fix.time_ms, most_time_ms));
-    if (!in_area(fix.cell, options)) {
-        throw DataError(
-            fmt::format("position ({}, {}, {}) is outside of the area ({}, {}, {}) to ({}, {}, {})",
-                        fix.cell.x, fix.cell.y, fix.cell.z, options.least.x, options.least.y,
-                        options.least.z, options.most.x, options.most.y, options.most.z));
-    }
+    check(fix, options);
     pending.push_back(fix);
     if (!known) return begin();
     make_room();
@@ -135,77 +131,71 @@ PacketHeader Sender::Impl::header(PacketKind kind, std::uint32_t count) const {
     PacketHeader header;
     header.kind = kind;
     header.count = count;
-    header.is_start = known->number() == 0;
-    header.start_ms = known->start_ms();
     header.ahead = kind == PacketKind::window ? count : kind == PacketKind::part ? 0 : ahead();
     // Of a part: so many that nothing that was sent is meant.
     const std::uint64_t most = kind == PacketKind::part ? newest() - known->number() : header.ahead;
-    header.reference_bits = static_cast<unsigned>(std::bit_width(most));
-    header.reference = static_cast<std::uint32_t>(
-        known->number() & ((std::uint64_t{1} << header.reference_bits) - 1));
+    set_reference(header, *known, most);
     return header;
 }
 
-void Sender::Impl::note_step(std::size_t place, const Step& step, std::uint64_t mark) {
+void Sender::Impl::note_step(std::size_t place, const Sent& sent) {
     if (place < steps.size())
-        steps[place] = {step, mark};
+        steps[place] = sent;
     else
-        steps.push_back({step, mark});
+        steps.push_back(sent);
 }
 
-/// How many of the pending positions fit behind the header (whose count it sets) and the newest.
-std::uint32_t Sender::Impl::fitting(PacketHeader header, const Step* newest,
-                                    std::size_t most_bits) const {
-    TrackState state(*known);
+/// One position as all that the packet holds.
+std::optional<Packet> Sender::Impl::alone(const PacketHeader& head, const Step& step,
+                                          std::size_t most_bits) {
     entropy::BitString bits;
-    entropy::Encoder coder(bits);
-    const auto fits = [&] {
-        return bits_of(header) + bits.size() + coder.ending_bits() <= most_bits;
-    };
-    std::uint32_t fit = 0;
-    if (newest != nullptr) {
-        state.encode_peek(*newest, coder);
-        header.count = 0;
-        if (!fits()) return 0;
-    }
-    for (const Fix& fix : pending) {
-        state.encode(state.step_to(fix, 1), coder);
-        const std::uint32_t count = fit + 1;
-        if (header.kind != PacketKind::window) header.count = count;
-        if (header.kind == PacketKind::window && header.is_start) header.ahead = count;
-        if (!fits()) break;
-        fit = count;
-    }
-    return fit;
-}
-
-void Sender::Impl::put_run(const PacketHeader& header, const Step* newest,
-                           entropy::BitString& bits) {
+    put(head, bits);
     TrackState state(*known);
-    entropy::Encoder coder(bits);
-    if (newest != nullptr) state.encode_peek(*newest, coder);
-    for (std::uint32_t k = 0; k < header.count; ++k) {
-        const Step step = state.step_to(pending[k], 1);
-        state.encode(step, coder);
-        note_step(k, step, state.mark());
-    }
-    coder.finish();
+    state.encode_alone(step, bits);
+    if (bits.size() > most_bits) return {};
+    const Sent sent{step, state.mark()};
+    if (step.ahead == 1)
+        note_step(0, sent);
+    else if (std::none_of(jumps.begin(), jumps.end(),
+                          [&](const Sent& other) { return other.mark == sent.mark; }))
+        jumps.push_back(sent);
+    next = std::move(state);
+    return packed(head, bits, *known, step.fix, options);
 }
 
-std::optional<Packet> Sender::Impl::finish(const PacketHeader& header,
-                                           const entropy::BitString& bits, std::size_t most_bits,
-                                           const Fix& newest_fix) {
-    if (bits.size() > most_bits) return {};
-    Packet packet;
-    const std::uint64_t seed = header.is_start ? agreed(options) : known->mark();
-    packet.bytes = seal(bits, seed, options.check_bits);
-    packet.kind = header.kind;
-    packet.is_start = header.is_start;
-    packet.positions = header.count + (header.kind == PacketKind::peek ? 1 : 0);
-    packet.newest = newest_fix;
-    packet.header_bits = bits_of(header);
-    packet.bits = bits.size();
-    return packet;
+/// The pending positions, one after another, as many as fit up to the header's count; behind the
+/// newest, if one is given. Nothing: fewer than `least` fit.
+std::optional<Packet> Sender::Impl::run(PacketHeader head, const Step* newest_step,
+                                        std::uint32_t least, std::size_t most_bits) {
+    const std::uint32_t most = head.count;
+    RunCoder coder(*known);
+    const auto fits = [&](std::uint32_t count) {
+        set_count(head, std::max(count, least));
+        return bits_of(head) + coder.bits() <= most_bits;
+    };
+    if (newest_step != nullptr) coder.put_newest(*newest_step);
+    if (newest_step != nullptr && !fits(0)) return {};
+    std::vector<Sent> sent;
+    bool is_whole = true;
+    while (is_whole && sent.size() < most) {
+        const Step step = coder.put(pending[sent.size()]);
+        is_whole = fits(static_cast<std::uint32_t>(sent.size() + 1));
+        if (is_whole) sent.push_back({step, coder.state().mark()});
+    }
+    if (sent.size() < least) return {};
+    if (!is_whole) coder.take_back();
+    set_count(head, static_cast<std::uint32_t>(sent.size()));
+    if (head.is_start && head.kind == PacketKind::window && sent.size() == 1) {
+        head.is_newest_full = true;
+        return alone(head, sent.front().step, most_bits);
+    }
+    entropy::BitString bits;
+    put(head, bits);
+    coder.finish(bits);
+    for (std::size_t k = 0; k < sent.size(); ++k) note_step(k, sent[k]);
+    if (is_whole) next = std::move(coder.state());
+    const Fix& newest_fix = newest_step != nullptr ? newest_step->fix : sent.back().step.fix;
+    return packed(head, bits, *known, newest_fix, options);
 }
 
 /// One position alone, which is the newest: the next one, or over the horizon.
@@ -214,63 +204,26 @@ std::optional<Packet> Sender::Impl::jump(std::size_t most_bits) {
     const Step step = known->step_to(pending.back(), k);
     PacketHeader head = header(k == 1 ? PacketKind::window : PacketKind::jump, 1);
     head.is_newest_full = step.is_full;
-    entropy::BitString bits;
-    put(head, bits);
-    TrackState state(*known);
-    state.encode_alone(step, bits);
-    std::optional<Packet> packet = finish(head, bits, most_bits, pending.back());
-    if (!packet) return {};
-    if (k == 1)
-        note_step(0, step, state.mark());
-    else if (std::none_of(jumps.begin(), jumps.end(),
-                          [&](const Sent& sent) { return sent.mark == state.mark(); }))
-        jumps.push_back({step, state.mark()});
-    return packet;
+    return alone(head, step, most_bits);
 }
 
 /// All of them; nothing: they do not fit.
 std::optional<Packet> Sender::Impl::window(std::size_t most_bits) {
     if (pending.size() == 1) return jump(most_bits);
-    const PacketHeader head = header(PacketKind::window, ahead());
-    if (fitting(head, nullptr, most_bits) < pending.size()) return {};
-    entropy::BitString bits;
-    put(head, bits);
-    put_run(head, nullptr, bits);
-    return finish(head, bits, most_bits, pending.back());
+    return run(header(PacketKind::window, ahead()), nullptr, ahead(), most_bits);
 }
 
 std::optional<Packet> Sender::Impl::peek(std::size_t most_bits, std::uint32_t least) {
     const Step step = known->step_to(pending.back(), ahead());
-    PacketHeader head = header(PacketKind::peek, 0);
+    PacketHeader head = header(PacketKind::peek, ahead() - 1);
     head.is_newest_full = step.is_full;
-    head.count = std::min(fitting(head, &step, most_bits), head.ahead - 1);
-    if (head.count < least) return {};
-    entropy::BitString bits;
-    put(head, bits);
-    put_run(head, &step, bits);
-    return finish(head, bits, most_bits, pending.back());
+    return run(head, &step, least, most_bits);
 }
 
 std::optional<Packet> Sender::Impl::part(std::size_t most_bits) {
     // From nothing the reference needs no number: a window that ends before the newest.
-    const bool is_start = known->number() == 0;
-    PacketHeader head = header(is_start ? PacketKind::window : PacketKind::part, 1);
-    head.count = fitting(head, nullptr, most_bits);
-    if (head.count == 0) return {};
-    if (is_start) head = header(PacketKind::window, head.count);
-    entropy::BitString bits;
-    if (is_start && head.count == 1) {
-        head.is_newest_full = true;
-        TrackState state(*known);
-        const Step step = state.step_to(pending.front(), 1);
-        put(head, bits);
-        state.encode_alone(step, bits);
-        note_step(0, step, state.mark());
-    } else {
-        put(head, bits);
-        put_run(head, nullptr, bits);
-    }
-    return finish(head, bits, most_bits, pending[head.count - 1]);
+    const auto kind = known->number() == 0 ? PacketKind::window : PacketKind::part;
+    return run(header(kind, static_cast<std::uint32_t>(pending.size())), nullptr, 1, most_bits);
 }
 
 /// More than fits: the newest first, and what else there is room for. Where there is none, the
@@ -307,11 +260,20 @@ std::optional<Packet> Sender::Impl::packet(std::size_t max_bytes) {
 void Sender::Impl::moved(std::uint64_t number) {
     jumps.clear();
     digests.clear();
+    if (next && next->number() <= number) next.reset();
     while (!pending.empty() && first <= number) {
         pending.pop_front();
         ++first;
     }
     arriving = std::min(arriving + all_arrives / 16, all_arrives);
+}
+
+/// Whether the state of that mark is at hand: it is the reference then.
+bool Sender::Impl::adopt(std::uint64_t mark) {
+    if (!next || next->mark() != mark) return false;
+    known = std::move(next);
+    next.reset();
+    return true;
 }
 
 bool Sender::Impl::advance(const Ack& ack, std::string_view bytes) {
@@ -322,14 +284,15 @@ bool Sender::Impl::advance(const Ack& ack, std::string_view bytes) {
     const std::uint64_t reference = known->number();
     for (std::size_t k = steps.size(); k > 0; --k) {
         if (!meant(reference + k, steps[k - 1].mark)) continue;
-        for (std::size_t j = 0; j < k; ++j) known->learn(steps[j].step);
+        if (!adopt(steps[k - 1].mark))
+            for (std::size_t j = 0; j < k; ++j) known->learn(steps[j].step);
         steps.erase(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(k));
         moved(reference + k);
         return true;
     }
     for (const Sent& sent : jumps) {
         if (!meant(reference + sent.step.ahead, sent.mark)) continue;
-        known->learn(sent.step);
+        if (!adopt(sent.mark)) known->learn(sent.step);
         steps.clear();
         moved(known->number());
         return true;

@@ -1,8 +1,7 @@
 #ifndef SEAUTILS_POSITION_SENDER_HPP
 #define SEAUTILS_POSITION_SENDER_HPP
 
-#include "seautils/position/packet.hpp"
-#include "seautils/position/track_state.hpp"
+#include "seautils/position/packing.hpp"
 
 #include <cstdint>
 #include <deque>
@@ -13,17 +12,6 @@
 #include <vector>
 
 namespace seautils::position {
-
-/// A packet, and what it costs.
-struct Packet {
-    std::string bytes;
-    PacketKind kind = PacketKind::window;
-    bool is_start = false;        ///< it can be decoded by a receiver that knows nothing
-    std::uint32_t positions = 0;  ///< in it
-    Fix newest;                   ///< the newest of them
-    std::size_t header_bits = 0;  ///< of the header
-    std::size_t bits = 0;         ///< of header and positions; without check and filling
-};
 
 /// The sending end. No clock, no input or output: fixes, packets and acknowledgements pass through.
 ///

@@ -36,10 +36,10 @@ Mixer::Answer ValueCoder::answer(std::size_t kind, const Column& yes, const Colu
 
 ValueCoder::Tree ValueCoder::tree() const {
     Tree t{};
-    const Column below = column(upper_edge(centre_ - 1)), upto = column(upper_edge(centre_));
-    t.centre = answer(0, minus(upto, below), whole()).yes;
-    t.above = answer(1, minus(whole(), upto), minus(whole(), minus(upto, below))).yes;
-    Column up = upto, down = below;
+    const Column below = column(upper_edge(centre_ - 1)), until = column(upper_edge(centre_));
+    t.centre = answer(0, minus(until, below), whole()).yes;
+    t.above = answer(1, minus(whole(), until), minus(whole(), minus(until, below))).yes;
+    Column up = until, down = below;
     for (std::int32_t d = 1; d <= singles; ++d) {
         const auto kind = static_cast<std::size_t>(d + 1), k = static_cast<std::size_t>(d - 1);
         const Column further_up = column(edge<1>(d)), further_down = column(edge<-1>(d));

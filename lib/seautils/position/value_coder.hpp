@@ -34,11 +34,11 @@ public:
     /// @return         the value, or what is beyond every limit
     template <class Decide>
     std::int32_t find(Decide decide, bool learn = true) {
-        const Column below = column(upper_edge(centre_ - 1)), upto = column(upper_edge(centre_));
-        if (ask(0, minus(upto, below), whole(), centre_, centre_, decide, learn)) return centre_;
-        const bool above = ask(1, minus(whole(), upto), minus(whole(), minus(upto, below)),
+        const Column below = column(upper_edge(centre_ - 1)), until = column(upper_edge(centre_));
+        if (ask(0, minus(until, below), whole(), centre_, centre_, decide, learn)) return centre_;
+        const bool above = ask(1, minus(whole(), until), minus(whole(), minus(until, below)),
                                centre_ + 1, INT32_MAX, decide, learn);
-        return above ? outwards<1>(upto, decide, learn) : outwards<-1>(below, decide, learn);
+        return above ? outwards<1>(until, decide, learn) : outwards<-1>(below, decide, learn);
     }
 
     /// The probabilities in Q16 of what find() asks first, nothing learnt: is it the centre, is it above,

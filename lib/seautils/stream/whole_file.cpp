@@ -38,6 +38,20 @@ void write_all(const File& file, std::string_view bytes, const std::string& path
     }
 }
 
+/// A pipe or a device cannot be synced, and need not be.
+void settle(const File& file, const std::string& path) {
+    if (::fsync(file.fd) != 0 && errno != EINVAL && errno != ENOTSUP) fail(ExitCode::io, path);
+}
+
+/// The name is in the folder's own bytes.
+void settle_name(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    const std::string folder = slash == path.npos ? "." : path.substr(0, slash + 1);
+    const File file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (file.fd < 0) return;  // a folder that may be written to, but not read
+    settle(file, folder);
+}
+
 }  // namespace
 
 std::optional<std::string> read_whole_file(const std::string& path, std::size_t most) {
@@ -57,15 +71,17 @@ std::optional<std::string> read_whole_file(const std::string& path, std::size_t 
     return bytes;
 }
 
-void replace_file(const std::string& path, std::string_view bytes) {
+void replace_file(const std::string& path, std::string_view bytes, Sync sync) {
     const std::string beside = path + ".new";
     {
         const File file(
             ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, file_mode));
         if (file.fd < 0) fail(ExitCode::cannot_create, beside);
         write_all(file, bytes, beside);
+        if (sync == Sync::yes) settle(file, beside);
     }
     if (::rename(beside.c_str(), path.c_str()) != 0) fail(ExitCode::cannot_create, path);
+    if (sync == Sync::yes) settle_name(path);
 }
 
 }  // namespace seautils::stream

@@ -12,11 +12,16 @@ namespace seautils::stream {
 /// @throws Error(no_input)  it cannot be opened or read
 std::optional<std::string> read_whole_file(const std::string& path, std::size_t most);
 
+/// Whether what was written outlives a loss of power.
+enum class Sync {
+    no,   ///< it may be the old file then, the new one, or cut: it should carry a check
+    yes,  ///< it is on the disk before the call returns, which may take long
+};
+
 /// Puts a file in the place of what `path` was, at one stroke: whoever opens it finds the old one or
-/// the new one. It is not synced, which could take long; after a loss of power it may be either, or
-/// cut, so it should carry a check.
+/// the new one, also after a kill at any moment.
 /// @throws Error(cannot_create), Error(io)
-void replace_file(const std::string& path, std::string_view bytes);
+void replace_file(const std::string& path, std::string_view bytes, Sync sync = Sync::no);
 
 }  // namespace seautils::stream
 
