@@ -20,7 +20,8 @@ lint_of() {
 @test "dccl-info: our own messages take no more than the published sizes" {
     run_quiet bash -c "dccl-info -s $schemas -f ndjson | jq -r '.message + \" \" + (.largest_bytes | tostring)'"
     declare -A published=([DeployCommand]=31 [ProsecuteCommand]=31 [Status]=27 [StatusFillIn]=29 [Contact]=29
-        [Track]=29 [Ctd]=256 [BeamTimeRecord]=64 [DebugPoke]=32 [SurfaceDeploy]=13 [SourceActivation]=5 [WinchControl]=3)
+        [Track]=29 [Ctd]=256 [BeamTimeRecord]=64 [DebugPoke]=32 [SurfaceDeploy]=13 [SourceActivation]=5 [WinchControl]=3
+        [TrackPacket]=257 [TrackAck]=257)
     assert_equal "${#lines[@]}" "${#published[@]}"
     for line in "${lines[@]}"; do
         read -r name bytes <<< "${line#seautils.}"

@@ -1,5 +1,6 @@
 // dccl-decode - unpack the bytes of the Dynamic Compact Control Language into messages
 #include "dccl_options.hpp"
+#include "dccl_position.hpp"
 #include "dccl_records.hpp"
 
 #include "seautils/core/text.hpp"
@@ -20,8 +21,8 @@ namespace {
 class Tool {
 public:
     Tool(cli::Io& io, const tools::DcclOptions& options,
-         const tools::ReceptionRecordOptions& records)
-        : io_(io), options_(options), types_(options.load(io)) {
+         const tools::ReceptionRecordOptions& records, tools::PositionTracks& positions)
+        : io_(io), options_(options), types_(options.load(io)), positions_(positions) {
         if (records.records) receptions_.emplace(io, records);
         const auto usage = [](const std::string& what) { throw Error(ExitCode::usage, what); };
         if ((io.format == "csv" || io.format == "delimited") && !types_.single())
@@ -72,7 +73,9 @@ private:
         // Times are near to the record's, or to the clock's.
         const bool logged = receptions_ && receptions_->time_ns() > 0;
         types_.set_now(logged ? receptions_->time_ns() / 1'000'000'000 : io_.now_us() / 1'000'000);
+        positions_.set_src(receptions_ ? receptions_->src() : 0);
         const dccl::TypeSet::Decoded decoded = types_.decode(bytes, values_);
+        positions_.settle();
         if (receptions_ && receptions_->is_again(bytes.substr(0, decoded.bytes)))
             return decoded.bytes;
         std::string& out = io_.out.buffer();
@@ -101,6 +104,7 @@ private:
     cli::Io& io_;
     const tools::DcclOptions& options_;
     dccl::TypeSet types_;
+    tools::PositionTracks& positions_;
     std::optional<schema::CsvWriter> csv_;
     std::optional<tools::ReceptionReader> receptions_;
     schema::Values values_;
@@ -113,6 +117,7 @@ private:
 int main(int argc, char** argv) {
     tools::DcclOptions dccl;
     tools::ReceptionRecordOptions records;
+    tools::PositionOptions position;
     bool resync = false;
     cli::App app{"dccl-decode",
                  "Unpack the bytes of the Dynamic Compact Control Language into messages.",
@@ -127,11 +132,14 @@ int main(int argc, char** argv) {
     app.options().add_flag("--resync", resync,
                            "raw: after bytes of no message, look on for the next");
     records.add(app.options());
+    position.add(app.options(), "Write acknowledgements of positions, for dccl-encode");
     return app.main(argc, argv, [&](cli::Io& io) {
         records.check();
         tools::settle_record_format(records.records, app.options(), "--input-format",
                                     io.input_format);
-        Tool tool(io, dccl, records);
+        tools::PositionTracks positions(io, tools::PositionEnd::receiver, position);
+        dccl.field_codecs = tools::position_codecs(positions);
+        Tool tool(io, dccl, records, positions);
         if (io.input_format == "raw") return tool.unframed(resync);
         const auto framing =
             io.input_format == "delimited" ? cli::Framing::delimited : cli::Framing::lines;

@@ -1,5 +1,6 @@
 // dccl-encode - pack messages into the few bytes of the Dynamic Compact Control Language
 #include "dccl_options.hpp"
+#include "dccl_position.hpp"
 #include "dccl_records.hpp"
 
 #include "seautils/core/text.hpp"
@@ -13,8 +14,9 @@ namespace {
 
 class Tool {
 public:
-    Tool(cli::Io& io, const tools::DcclOptions& options, const tools::MessageRecordOptions& records)
-        : io_(io), types_(options.load(io)) {
+    Tool(cli::Io& io, const tools::DcclOptions& options, const tools::MessageRecordOptions& records,
+         tools::PositionTracks& positions)
+        : io_(io), types_(options.load(io)), positions_(positions) {
         if (records.wanted()) records_.emplace(io, records);
         if (io.input_format != "ndjson" && types_.types()[0].legacy != nullptr) {
             throw Error(ExitCode::usage, "messages of DCCL 1 are read from ndjson only");
@@ -29,7 +31,9 @@ public:
         const dccl::Type& type = read(record);
         types_.set_now(io_.now_us() / 1'000'000);
         bytes_.clear();
+        positions_.hear();
         types_.encode(type, values_, bytes_);
+        positions_.settle();
         const bool told = records_ || io_.format == "delimited";
         if (bytes_.empty() && !told)
             throw DataError("the message takes no bytes, which only delimited can hold");
@@ -83,6 +87,7 @@ private:
 
     cli::Io& io_;
     dccl::TypeSet types_;
+    tools::PositionTracks& positions_;
     schema::JsonReader json_;
     schema::Values values_;
     std::optional<tools::MessageRecordWriter> records_;
@@ -94,6 +99,7 @@ private:
 int main(int argc, char** argv) {
     tools::DcclOptions dccl;
     tools::MessageRecordOptions records;
+    tools::PositionOptions position;
     cli::App app{"dccl-encode",
                  "Pack messages into the few bytes of the Dynamic Compact Control Language.",
                  "  dccl-encode -s status.proto status.ndjson\n",
@@ -103,10 +109,13 @@ int main(int argc, char** argv) {
     dccl.add_type_options(app.options());
     dccl.add_frame_options(app.options());
     records.add(app.options());
+    position.add(app.options(), "Acknowledgements of positions, from dccl-decode");
     return app.main(argc, argv, [&](cli::Io& io) {
         records.check();
         tools::settle_record_format(records.wanted(), app.options(), "--format", io.format);
-        Tool tool(io, dccl, records);
+        tools::PositionTracks positions(io, tools::PositionEnd::sender, position);
+        dccl.field_codecs = tools::position_codecs(positions);
+        Tool tool(io, dccl, records, positions);
         const auto framing =
             io.input_format == "delimited" ? cli::Framing::delimited : cli::Framing::lines;
         io.for_each(framing, [&](std::string_view record) { tool.record(record); });

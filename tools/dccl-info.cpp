@@ -1,5 +1,6 @@
 // dccl-info - say what messages cost on the link, field by field, and what is wasteful in them
 #include "dccl_options.hpp"
+#include "dccl_position.hpp"
 
 #include "seautils/dccl/survey.hpp"
 
@@ -15,6 +16,8 @@ int main(int argc, char** argv) {
     dccl.add_type_options(app.options());
     return app.main(argc, argv, [&](cli::Io& io) {
         dccl.keep_collisions = io.messages.empty();  // types that are named must load together
+        tools::PositionTracks positions(io, tools::PositionEnd::none);
+        dccl.field_codecs = tools::position_codecs(positions);
         const dccl::TypeSet types = dccl.load(io);
         for (const dccl::Survey& survey : dccl::survey(types, io.now_us() / 1'000'000)) {
             std::string& out = io.out.buffer();

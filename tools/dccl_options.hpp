@@ -32,6 +32,7 @@ struct DcclOptions {
     std::vector<std::int32_t> skip_crypto_ids;
     std::string id_codec = "default";
     std::vector<std::string> arithmetic_models;
+    dccl::FieldCodecs field_codecs;  ///< what the tool brings along
 
     /// What decides on the types: all three tools.
     void add_type_options(CLI::App& app) {
@@ -148,6 +149,7 @@ inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
     codec.now_s = io.now_us() / 1'000'000;
     dccl::ProgramOptions program;
     program.id_codec = id_codec == "ccl" ? dccl::IdCodec::ccl : dccl::IdCodec::standard;
+    program.field_codecs = field_codecs;
     for (const std::string& file : arithmetic_models) {
         const std::string text = file_text(file);
         try {

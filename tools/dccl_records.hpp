@@ -233,6 +233,7 @@ public:
     }
 
     std::int64_t time_ns() const { return time_ns_; }
+    std::uint32_t src() const { return src_; }
 
     /// With --received: puts when and from whom into the JSON object that begins at `at`.
     void add_received(std::string& out, std::size_t at) const {

@@ -134,6 +134,8 @@ bool fits(const CodecChoice& codec, const schema::Field& f) {
                    f.kind == Kind::enumeration;
         case Family::ccl:
             return fits_ccl(codec.ccl, f.kind);
+        case Family::custom:
+            return true;  // bounds() says more
     }
     return false;
 }
@@ -154,6 +156,8 @@ Compiler::Bits Compiler::element(Op& op, const FieldOptions& options, const Code
             return arithmetic(op, options, path);
         case Family::ccl:
             return ccl(op, options, codec, path);
+        case Family::custom:
+            return custom(op, options, codec, path);
         case Family::standard:
         case Family::presence:
         case Family::var_bytes:
@@ -419,6 +423,21 @@ Compiler::Bits Compiler::ccl(Op& op, const FieldOptions& options, const CodecCho
     op.max_length = ccl_bits(codec.ccl, options.ccl_bit_size.value_or(0));
     op.element_min_bits = op.max_length;
     return {op.max_length, op.max_length};
+}
+
+Compiler::Bits Compiler::custom(Op& op, const FieldOptions& options, const CodecChoice& codec,
+                                const std::string& path) {
+    op.kind = OpKind::custom;
+    op.extra = static_cast<std::uint32_t>(program_->field_codecs_.size());
+    program_->field_codecs_.push_back(options_.field_codecs.at(codec.name));
+    try {
+        const FieldCodec::Bounds bounds =
+            program_->field_codecs_.back()->bounds(*op.field, options);
+        op.element_min_bits = bounds.min;
+        return {bounds.min, bounds.max};
+    } catch (const ConfigError& e) {
+        refuse(path, fmt::format("codec {}: {}", codec.name, e.what()));
+    }
 }
 
 }  // namespace seautils::dccl

@@ -207,6 +207,11 @@ void Compiler::add_lost(const schema::Field& f, std::uint32_t index, std::vector
 
 namespace {
 
+/// Of a sub-message, too: its fields are no steps.
+bool takes_whole(const CodecChoice& codec) {
+    return codec.family == Family::ccl || codec.family == Family::custom;
+}
+
 bool is_plain(const Op& op) {
     const bool own_way =
         op.kind == OpKind::arithmetic || op.kind == OpKind::fixed_value || op.kind == OpKind::hash;
@@ -231,7 +236,7 @@ void Compiler::add(const schema::Field& f, std::uint32_t index, const FieldOptio
     const std::size_t row = program_->report_.size();
     program_->report_.emplace_back();  // in front of those of its fields
     ops.push_back(op);
-    const bool nested = f.kind == schema::Kind::message && codec.family != Family::ccl;
+    const bool nested = f.kind == schema::Kind::message && !takes_whole(codec);
     const Bits bits =
         nested ? sub_message(op, codec, ops, inside, path) : element(op, options, codec, path);
     op.end = static_cast<std::uint32_t>(nested ? ops.size() : at + 1);
@@ -300,7 +305,12 @@ CodecChoice Compiler::choose(const schema::Field& f, const FieldOptions& options
     }
     if (name.empty()) name = root_.codec_group.value_or("");
     if (name.empty()) name = fmt::format("dccl.default{}", program_->version_);
-    const auto codec = find_codec(name, program_->version_);
+    auto codec = find_codec(name, program_->version_);
+    if (!codec && options_.field_codecs.contains(name)) {
+        codec.emplace();
+        codec->family = Family::custom;
+        codec->name = name;
+    }
     if (!codec || !fits(*codec, f)) {
         refuse(path, fmt::format("no codec {} for its type (codec_version {})", quote(name),
                                  program_->version_));
@@ -375,7 +385,7 @@ std::vector<Pruning> Compiler::pruning(const schema::Layout& layout, int depth) 
         if (options.omit) continue;
         if (++steps_ > 3 * max_steps) refuse(f.name, fmt::format("more than {} fields", max_steps));
         const CodecChoice codec = choose(f, options, f.name);
-        if (codec.family == Family::ccl) continue;
+        if (takes_whole(codec)) continue;
         Pruning one{k, f.repeated, codec.family == Family::standard && codec.version == 2,
                     f.message, pruning(*f.message, depth + 1)};
         if (one.drop_empty || !one.below.empty()) all.push_back(std::move(one));

@@ -19,6 +19,7 @@ enum class Family : std::uint8_t {
     native,
     arithmetic,
     ccl,
+    custom,  ///< of ProgramOptions
 };
 
 /// A codec by its registered name.
@@ -89,6 +90,8 @@ private:
     Bits arithmetic(Op& op, const FieldOptions& options, const std::string& path);
     Bits ccl(Op& op, const FieldOptions& options, const CodecChoice& codec,
              const std::string& path);
+    Bits custom(Op& op, const FieldOptions& options, const CodecChoice& codec,
+                const std::string& path);
     Bits with_presence(Op& op, Bits bits) const;
     double step(const Op& op, const FieldOptions& options, double min, double max,
                 const std::string& path) const;

@@ -174,6 +174,8 @@ void Decoder::value(const Op& op, std::size_t at, std::uint32_t slot, const Fram
             return native(op, s);
         case OpKind::ccl:
             return ccl(op, slot);
+        case OpKind::custom:
+            return program_.field_codec(op).decode(*op.field, *reader_, values_, slot);
         case OpKind::arithmetic:
         case OpKind::selectors:
         case OpKind::lost:

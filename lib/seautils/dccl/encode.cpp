@@ -185,6 +185,8 @@ void Encoder::value(const Op& op, std::size_t at, const Slot& slot, const Frame&
             return native(op, slot);
         case OpKind::ccl:
             return ccl(op, slot);
+        case OpKind::custom:
+            return program_.field_codec(op).encode(*op.field, values_, slot, writer_);
         case OpKind::arithmetic:
         case OpKind::selectors:
         case OpKind::lost:

@@ -158,8 +158,8 @@ public:
                std::uint32_t block) {
         for (std::size_t at = first; at < last; at = ops[at].end) {
             const Op& op = ops[at];
-            if (op.kind == OpKind::selectors || op.kind == OpKind::lost || op.condition >= 0)
-                continue;
+            const bool unknown = op.kind == OpKind::custom || op.condition >= 0;
+            if (op.kind == OpKind::selectors || op.kind == OpKind::lost || unknown) continue;
             if (op.in_oneof && !first_member(op)) continue;
             const std::uint32_t slot = block + op.slot;
             if (!op.repeated) {

@@ -2,6 +2,7 @@
 #define SEAUTILS_DCCL_PROGRAM_HPP
 
 #include "seautils/dccl/ccl.hpp"
+#include "seautils/dccl/field_codec.hpp"
 #include "seautils/dccl/number.hpp"
 #include "seautils/dccl/options.hpp"
 #include "seautils/dccl/report.hpp"
@@ -102,6 +103,8 @@ struct ProgramOptions {
     std::optional<std::int32_t> user_id;
     /// Models of the arithmetic codec, by name.
     std::map<std::string, entropy::Model> models;
+    /// Codecs that schemas may name beside ours, whose names stay ours.
+    FieldCodecs field_codecs;
 };
 
 /// A message type compiled for the wire: immutable, shared by any number of codecs.
@@ -155,6 +158,7 @@ public:
     const SelectorCode& selectors(const Op& op) const { return selectors_[op.extra]; }
     const entropy::Model& model(const Op& op) const { return *models_[op.extra]; }
     const entropy::Model& model_at(std::size_t k) const { return *models_[k]; }
+    FieldCodec& field_codec(const Op& op) const { return *field_codecs_[op.extra]; }
     std::size_t model_count() const { return models_.size(); }
     /// Only for a step whose `condition` is not negative.
     const ConditionCode& conditions(const Op& op) const {
@@ -184,6 +188,7 @@ private:
     std::vector<HashCode> hashes_;
     std::vector<SelectorCode> selectors_;
     std::vector<std::shared_ptr<const entropy::Model>> models_;
+    std::vector<std::shared_ptr<FieldCodec>> field_codecs_;
     std::vector<ConditionCode> conditions_;
     std::vector<Pruning> pruning_;
     std::vector<FieldReport> report_;

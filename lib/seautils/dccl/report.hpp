@@ -24,7 +24,8 @@ enum class OpKind : std::uint8_t {
     native,  ///< protobuf's own value encoding
     arithmetic,
     ccl,
-    lost,  ///< a header leaf below a body message, which versions 3 and 4 never send
+    custom,  ///< a FieldCodec of the program
+    lost,    ///< a header leaf below a body message, which versions 3 and 4 never send
 };
 
 /// A row of the report on what a schema costs (dccl-info).

@@ -3,5 +3,5 @@ seautils_module(NAME position
     value_coder.cpp mix_model.cpp mix_codec.cpp plan_model.cpp joint_code.cpp state_bytes.cpp delta_model.cpp
     fixed_observer.cpp kalman_observer.cpp thesis.cpp
     hash.cpp horizon.cpp packet.cpp packet_filler.cpp packing.cpp receiver.cpp sender.cpp simulation.cpp track_state.cpp
-    cost.cpp fix_reader.cpp fix_writer.cpp frame.cpp grid.cpp sampling.cpp
+    cost.cpp field.cpp fix_reader.cpp fix_writer.cpp frame.cpp grid.cpp sampling.cpp
   DEPENDS core entropy LINK PkgConfig::GEOGRAPHIC fmt::fmt simdjson::simdjson)
