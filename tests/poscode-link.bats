@@ -123,7 +123,7 @@ decoded() {
     diff <(expected long.csv) <(decoded)
 }
 
-@test "poscode encode --newest: the last position arrives, and fewer packets are made" {
+@test "poscode encode --newest: the last position arrives, and nothing that was not sampled" {
     link 0.4 2
     receive
     timeout 60 poscode encode --newest --feedback acks --every 0.02 --src 2 track.csv > sent
@@ -156,6 +156,44 @@ decoded() {
     diff want <(echo "$output")
     run_quiet poscode decode -F ndjson --from 3 heard
     assert_output ''
+}
+
+@test "poscode link: other ids, also of two bytes, are those of DCCL" {
+    sed 's/id: 110/id: 300/; s/id: 111/id: 20000/; s/max_bytes: 257/max_bytes: 258/' "$seautils/track.proto" > track.proto
+    poscode encode track.csv > hex
+    poscode encode -f message --id 300 track.csv > packets
+    while read -r data; do
+        dccl-decode -s track.proto -m seautils.TrackPacket -F base64 <<< "$data" | jq -r .packet | base64 -d | digits
+        echo
+    done < <(jq -r .message.data packets) > got
+    diff hex got
+    diff <(poscode decode hex) <(poscode decode -F ndjson --id 300 --ack-id 20000 packets)
+    run_quiet poscode decode -F ndjson packets # not the ids that it looks for
+    assert_output ''
+}
+
+@test "poscode link: any bytes in a frame are passed over, and none becomes a position" {
+    awk 'BEGIN {
+        srand(4); digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
+        for (k = 0; k < 3000; ++k) {
+            text = k % 2 ? "" : "3A" # the first byte of a packet
+            size = 4 * int(rand() * 12 + 1)
+            while (length(text) < size) text = text substr(digits, int(rand() * 64) + 1, 1)
+            printf "{\"time\":\"2024-05-01T12:00:00Z\",\"reception\":{\"src\":2,\"dest\":1,\"frame\":[\"%s\"]}}\n", text
+        }
+    }' > noise
+    run_quiet poscode decode -F ndjson noise
+    assert_output ''
+    mkfifo acks
+    exec {hold_1}<> acks
+    poscode encode --feedback acks --src 2 --every 0.05 --linger 2 track.csv > packets 2> encode.log 3>&- &
+    started+=($!)
+    cat noise > acks
+    wait $!
+    assert_equal "$(cat encode.log)" 'poscode: 60 positions not acknowledged'
+    poscode decode -F ndjson -f csv packets > got # the oldest that fit, and the newest
+    assert_equal "$(comm -13 <(expected track.csv) <(decoded))" ''
+    assert_equal "$(decoded | tail -1)" "$(expected track.csv | tail -1)"
 }
 
 @test "poscode encode: packets go for each sample, while none is acknowledged, and when a slot begins" {

@@ -177,7 +177,7 @@ END
     command -v gnuplot > /dev/null || skip "gnuplot is not installed"
     run_quiet poscode simulate --loss 0.8 --loss 0.1 --plot x.svg track.csv
     for way in full arq-55 arq-256 history newest auto; do
-        assert_equal "$(grep -c ">$way<" x.svg)" 2 # in both panels
+        assert_equal "$(grep -c "<text>.*>$way<" x.svg)" 2 # in both panels
     done
     run_quiet poscode simulate --loss 0.5 --plot x.png track.csv
     assert_equal "$(head -c 4 x.png | digits)" 89504e47

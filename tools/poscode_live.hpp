@@ -99,6 +99,7 @@ public:
         loop_.before_wait([this] { before_wait(); });
         is_due_ = sender_.pending() > 0;
         loop_.run();
+        keep();
         if (sender_.pending() > 0)
             io_.warn(counted(sender_.pending(), "position") + " not acknowledged");
         if (sender_.dropped() > 0)
@@ -167,10 +168,14 @@ private:
         loop_.wake_at_steady(due);
     }
 
+    void keep() const {
+        if (state_.is_used()) state_.write({newest_ms_, sender_.save()});
+    }
+
     void send() {
         const auto packet = sender_.packet(options_.max_bytes);
         again_ns_ = io_.clock.steady_ns() + every_ns_;
-        if (state_.is_used()) state_.write({newest_ms_, sender_.save()});
+        keep();
         if (!packet) return;
         record::Record record;
         record.time.ns = io_.clock.now_ns();

@@ -116,7 +116,7 @@ private:
             }
             text += "END\n";
             const std::string how =
-                fmt::format("with linespoints pt {} title '{}' {}", k + 1, ways[k].title, style(k));
+                fmt::format("with linespoints title '{}' {} pt {}", ways[k].title, style(k), k + 1);
             bits += fmt::format("{} $w{} using 1:2 {}", k == 0 ? "" : ",", k, how);
             age += fmt::format("{} $w{} using 1:3 {}", k == 0 ? "" : ",", k, how);
         }

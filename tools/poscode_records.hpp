@@ -53,11 +53,13 @@ public:
     };
     /// The next one; nothing: none of ours begins here.
     std::optional<Part> next(const TrackIds& ids) {
-        const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(rest_[k]); };
+        const auto byte = [&](std::size_t k) -> std::uint32_t {
+            return static_cast<unsigned char>(rest_[k]);
+        };
         if (rest_.empty()) return {};
         const std::size_t id_bytes = (byte(0) & 1) == 0 ? 1 : 2;
         if (rest_.size() <= id_bytes) return {};
-        const std::uint32_t id = (byte(0) | (id_bytes == 2 ? byte(1) << 8 : 0U)) >> 1;
+        const std::uint32_t id = (byte(0) | (id_bytes == 2 ? byte(1) << 8 : 0)) >> 1;
         const std::size_t size = byte(id_bytes);
         if ((id != ids.packet && id != ids.ack) || rest_.size() < id_bytes + 1 + size) return {};
         const Part part{id, rest_.substr(id_bytes + 1, size)};
