@@ -39,7 +39,7 @@ void Analogs::measure(const Features& situation, std::vector<std::int32_t>& dist
                       bool mirrored) const {
     const std::int32_t base = mirrored ? mirror_distance : 0;
     const auto youngest = static_cast<std::int32_t>(next_ + capacity_ - 1);
-    for (std::size_t k = 0; k < size_; ++k) {
+    for (std::size_t k = 0; k < distance.size(); ++k) {
         const std::int32_t age = youngest - static_cast<std::int32_t>(k);
         const auto capacity = static_cast<std::int32_t>(capacity_);
         distance[k] = base + (age >= capacity ? age - capacity : age) / 8;
@@ -61,7 +61,7 @@ void Analogs::measure(const Features& situation, std::vector<std::int32_t>& dist
 
 std::size_t Analogs::find(const Features& situation, std::span<Found> found) const {
     thread_local std::vector<std::int32_t> distance;
-    distance.assign(padded(capacity_), 0);
+    distance.resize(padded(capacity_));
     std::size_t count = 0;
     std::int32_t bound = INT32_MAX;  // what is not below it is not among the nearest
     const auto look = [&](std::size_t k, bool mirrored) {

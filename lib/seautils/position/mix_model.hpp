@@ -45,7 +45,7 @@ public:
     template <class Archive>
     void archive(Archive& a) {
         a.all(slow_, fast_, turn_, path_, innovation_, world_, place_, slow_z_, fast_z_, hold_z_,
-              cases_, plane_mixer_, depth_mixer_);
+              cases_, plan_, plane_mixer_, depth_mixer_);
         for (auto& s : plane_score_) a.number(s, -(1 << 28), 1 << 28);
         for (auto& s : depth_score_) a.number(s, -(1 << 28), 1 << 28);
     }
