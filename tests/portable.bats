@@ -6,16 +6,16 @@ setup() {
     cd "$BATS_TEST_TMPDIR" || return
 }
 
-# What the codecs are made of; the rest of the module (frames, packets, …) is not about their bits.
-codecs=(analogs codec delta_model fixed_observer joint_code kalman_observer mix_codec mix_model mixer
-    mixture motion predictors state_bytes thesis track_filter value_coder)
-
-# hashes COMPILER FLAG...: builds the program of tests/portable in all, and prints what it says.
+# hashes COMPILER FLAG...: builds the program of tests/portable, and prints what it says.
 hashes() {
-    local lib=$SEAUTILS_ROOT/lib/seautils
-    local sources=("${codecs[@]/#/$lib/position/}")
-    "$@" -std=c++20 -I "$BATS_TEST_DIRNAME/portable" -I "$SEAUTILS_ROOT/lib" -o codecs "$BATS_TEST_DIRNAME/portable/codecs.cpp" \
-        "${sources[@]/%/.cpp}" "$lib"/entropy/{arithmetic,bits,model}.cpp "$lib"/core/text.cpp
+    local part parts=(codecs mix thesis) jobs=()
+    for part in "${parts[@]}"; do
+        $(command -v ccache) "$@" -std=c++20 -I "$BATS_TEST_DIRNAME/portable" -I "$SEAUTILS_ROOT/lib" \
+            -c -o "$part.o" "$BATS_TEST_DIRNAME/portable/$part.cpp" &
+        jobs+=($!)
+    done
+    for part in "${jobs[@]}"; do wait "$part" || return; done
+    "$@" -o codecs "${parts[@]/%/.o}"
     ./codecs
 }
 

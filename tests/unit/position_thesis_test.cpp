@@ -304,7 +304,7 @@ std::size_t send(Codec& sender, Codec& receiver, const std::vector<Cell>& walk, 
 }
 
 TEST(Thesis, LawWhatIsEncodedIsDecodedAndLearntAlike) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check("what is encoded is decoded and learnt alike", [] {
         const std::vector<Cell> walk = any_walk();
         const auto sender = make_codec(any_options());
         const auto receiver = sender->clone();
@@ -324,11 +324,11 @@ TEST(Thesis, LawWhatIsEncodedIsDecodedAndLearntAlike) {
             RC_ASSERT(listener->save() == state);
             RC_ASSERT(sender->clone()->save() == state);
         }
-    });
+    }));
 }
 
 TEST(Thesis, LawOnePositionAPacketToTheBit) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check("one position a packet, to the bit", [] {
         const std::vector<Cell> walk = any_walk();
         const auto sender = make_codec(any_options());
         const auto receiver = sender->clone();
@@ -345,11 +345,11 @@ TEST(Thesis, LawOnePositionAPacketToTheBit) {
             RC_ASSERT(exact.left() == 0U);
         }
         RC_ASSERT(sender->save() == receiver->save());
-    });
+    }));
 }
 
 TEST(Thesis, LawAnyBitsAreDecodedOrRefused) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check("any bits are decoded or refused", [] {
         const auto codec = make_codec(any_options());
         for (const Cell& cell : any_walk()) codec->learn(cell);
         const auto bytes = *rc::gen::arbitrary<std::string>();
@@ -363,11 +363,11 @@ TEST(Thesis, LawAnyBitsAreDecodedOrRefused) {
             }
         } catch (const DataError&) {
         }
-    });
+    }));
 }
 
 TEST(Thesis, LawStateIsKeptAndGoesOnAlike) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check("a state is kept, and goes on alike", [] {
         const CodecOptions options = any_options();
         const auto codec = make_codec(options);
         const std::vector<Cell> walk = any_walk();
@@ -380,11 +380,11 @@ TEST(Thesis, LawStateIsKeptAndGoesOnAlike) {
         codec->learn(walk.front());
         other->learn(walk.front());
         RC_ASSERT(other->save() == codec->save());
-    });
+    }));
 }
 
 TEST(Thesis, LawADamagedStateIsRefusedWithoutHarm) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check("a damaged state is refused without harm", [] {
         const auto codec = make_codec(any_options());
         for (const Cell& cell : any_walk()) codec->learn(cell);
         const std::string state = codec->save();
@@ -396,12 +396,12 @@ TEST(Thesis, LawADamagedStateIsRefusedWithoutHarm) {
                 static_cast<char>(*rc::gen::inRange(1, 256));
         RC_ASSERT_THROWS_AS(codec->load(bad), DataError);
         RC_ASSERT(codec->save() == state);
-    });
+    }));
 }
 
 TEST(Thesis, StateThatIsWellFormedButWrongIsRefusedWithoutHarm) {
     // Any numbers, with a good check sum: taken or refused, and taken ones do no harm.
-    rc::check([] {
+    EXPECT_TRUE(rc::check("a well-formed state that is wrong is refused without harm", [] {
         const CodecOptions options = *rc::gen::elementOf(all_options());
         StateWriter out(1);
         for (const auto kind :
@@ -421,7 +421,7 @@ TEST(Thesis, StateThatIsWellFormedButWrongIsRefusedWithoutHarm) {
             return;
         }
         for (const Cell& cell : any_walk()) codec->learn(cell);
-    });
+    }));
 }
 
 TEST(Thesis, StateOfAnotherVersionOrOfOtherOptionsIsNamed) {
