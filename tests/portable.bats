@@ -8,9 +8,10 @@ setup() {
 
 # hashes COMPILER FLAG...: builds the program of tests/portable, and prints what it says.
 hashes() {
-    local part parts=(codecs mix thesis) jobs=()
+    local part parts=(codecs mix thesis) jobs=() CCACHE
+    CCACHE=$(command -v ccache)
     for part in "${parts[@]}"; do
-        $(command -v ccache) "$@" -std=c++20 -I "$BATS_TEST_DIRNAME/portable" -I "$SEAUTILS_ROOT/lib" \
+        ${CCACHE:+"$CCACHE"} "$@" -std=c++20 -I "$BATS_TEST_DIRNAME/portable" -I "$SEAUTILS_ROOT/lib" \
             -c -o "$part.o" "$BATS_TEST_DIRNAME/portable/$part.cpp" &
         jobs+=($!)
     done

@@ -49,7 +49,7 @@ public:
             out.text(state);
         }
         out.text("");
-        stream::replace_file(path_, out.finish());
+        stream::replace_file(path_, out.finish(), stream::Sync::yes);
     }
 
 private:
