@@ -9,7 +9,7 @@ setup() {
 # hashes COMPILER FLAG...: builds the program of tests/portable, and prints what it says.
 hashes() {
     local part parts=(codecs mix thesis) jobs=() CCACHE
-    CCACHE=$(command -v ccache)
+    CCACHE=$(command -v ccache || true)
     for part in "${parts[@]}"; do
         ${CCACHE:+"$CCACHE"} "$@" -std=c++20 -I "$BATS_TEST_DIRNAME/portable" -I "$SEAUTILS_ROOT/lib" \
             -c -o "$part.o" "$BATS_TEST_DIRNAME/portable/$part.cpp" &
