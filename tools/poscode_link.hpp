@@ -113,15 +113,8 @@ private:
     }
 
     void message(const position::Packet& packet) {
-        record::Record record;
-        record.time.ns = packet.newest.time_ms * 1'000'000;
-        record::Message message;
-        message.id = options_.id;
-        message.src = options_.src;
-        message.dest = options_.dest;
-        message.created = record.time;
-        message.data = wrapped(options_.id, packet.bytes);
-        record.kind = std::move(message);
+        const record::Record record = track_message(packet.newest.time_ms * 1'000'000, options_.id,
+                                                    options_.src, options_.dest, packet.bytes);
         codec_.write(record, record::Form::ndjson, io_.out.buffer());
         io_.out.commit();
     }

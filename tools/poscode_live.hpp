@@ -177,15 +177,8 @@ private:
         again_ns_ = io_.clock.steady_ns() + every_ns_;
         keep();
         if (!packet) return;
-        record::Record record;
-        record.time.ns = io_.clock.now_ns();
-        record::Message message;
-        message.id = ids_.packet;
-        message.src = options_.src;
-        message.dest = options_.dest;
-        message.created = record.time;
-        message.data = wrapped(ids_.packet, packet->bytes);
-        record.kind = std::move(message);
+        const record::Record record = track_message(io_.clock.now_ns(), ids_.packet, options_.src,
+                                                    options_.dest, packet->bytes);
         queue_ ? queue_->send(record, records_.codec()) : records_.write(record);
     }
 

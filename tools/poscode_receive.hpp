@@ -111,15 +111,8 @@ private:
 
     void acknowledge(const std::string& ack, std::uint32_t dest) {
         if (!queue_ && !fifo_) return;
-        record::Record record;
-        record.time.ns = io_.clock.now_ns();
-        record::Message message;
-        message.id = options_.ids.ack;
-        message.src = options_.src;
-        message.dest = dest;
-        message.created = record.time;
-        message.data = wrapped(options_.ids.ack, ack);
-        record.kind = std::move(message);
+        const record::Record record =
+            track_message(io_.clock.now_ns(), options_.ids.ack, options_.src, dest, ack);
         if (queue_) queue_->send(record, records_.codec());
         if (!fifo_) return;
         bytes_.clear();

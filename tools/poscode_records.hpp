@@ -42,6 +42,21 @@ inline std::string wrapped(std::uint32_t id, std::string_view bytes) {
     return message;
 }
 
+/// The record that hands a packet or an acknowledgement to a queue. @throws DataError  as wrapped()
+inline record::Record track_message(std::int64_t time_ns, std::uint32_t id, std::uint32_t src,
+                                    std::uint32_t dest, std::string_view bytes) {
+    record::Record record;
+    record.time.ns = time_ns;
+    record::Message message;
+    message.id = id;
+    message.src = src;
+    message.dest = dest;
+    message.created = record.time;
+    message.data = wrapped(id, bytes);
+    record.kind = std::move(message);
+    return record;
+}
+
 /// The messages that a frame begins with, up to the first one that has neither id.
 class TrackFrame {
 public:

@@ -32,9 +32,8 @@ MixModel::MixModel(std::size_t capacity, const std::vector<Cell>& plan)
       depth_mixer_(depths + (plan.empty() ? 0 : 1), {1, 4, 15}) {}
 
 Mixer::Contexts MixModel::plane_contexts(const Motion& m) {
-    const std::size_t turn_age = m.since_turn < 3 ? 0 : m.since_turn < 8 ? 1 : 2;
     const std::size_t surprise = level(length(m.innovation[0]), {128, 256, 512, 1280});
-    return {m.turn_class * 3 + turn_age, surprise * 3 + age(m.known),
+    return {m.turn_context(), surprise * 3 + age(m.known),
             level(m.innovation_z, {128, 384}) * 3 + age(m.known)};
 }
 

@@ -8,6 +8,22 @@ std::int32_t mass(const Mixture& m, std::size_t k, std::int32_t cell) {
     return m.component_below(k, upper_edge(cell)) - m.component_below(k, upper_edge(cell - 1));
 }
 
+/// In proportion to weight times what is expected, Q20, together at most 1; the weights where next to
+/// nothing was expected.
+template <class Weight, class Expected>
+std::array<std::int32_t, most_components> shares(std::size_t size, Weight weight,
+                                                 Expected expected) {
+    std::array<std::int64_t, most_components> product{};
+    std::int64_t total = 0;
+    for (std::size_t k = 0; k < size; ++k)
+        total += product[k] = std::int64_t{weight(k)} * expected(k);
+    std::array<std::int32_t, most_components> share{};
+    const std::int64_t unit = (total >> 20) + 1;
+    for (std::size_t k = 0; k < size; ++k)
+        share[k] = unit < 256 ? weight(k) : static_cast<std::int32_t>(product[k] / unit);
+    return share;
+}
+
 }  // namespace
 
 std::int32_t Mixture::mean() const {
@@ -20,18 +36,9 @@ std::int32_t Mixture::mean() const {
 }
 
 std::array<std::int32_t, most_components> responsibility(const Mixture& m, std::int32_t cell) {
-    std::array<std::int32_t, most_components> share{};
-    std::int64_t total = 0;
-    std::array<std::int64_t, most_components> product{};
-    for (std::size_t k = 0; k < m.size(); ++k) {
-        const std::int64_t mass =
-            m.component_below(k, upper_edge(cell)) - m.component_below(k, upper_edge(cell - 1));
-        total += product[k] = mass * m.weight(k);
-    }
-    const std::int64_t unit = (total >> 20) + 1;
-    for (std::size_t k = 0; k < m.size(); ++k)
-        share[k] = unit < 256 ? m.weight(k) : static_cast<std::int32_t>(product[k] / unit);
-    return share;
+    return shares(
+        m.size(), [&](std::size_t k) { return m.weight(k); },
+        [&](std::size_t k) { return mass(m, k, cell); });
 }
 
 void PlaneMixture::add(std::int32_t weight, Pair mean, std::int64_t along, std::int64_t across,
@@ -63,16 +70,9 @@ Mixture PlaneMixture::along_x() const {
 }
 
 PlaneMixture::Weights PlaneMixture::reweighted(const Weights& expected) const {
-    std::array<std::int64_t, most_components> product{};
-    std::int64_t total = 0;
-    for (std::size_t k = 0; k < size_; ++k)
-        total += product[k] = std::int64_t{components_[k].weight} * expected[k];
-    Weights weights{};
-    const std::int64_t unit = (total >> 20) + 1;
-    for (std::size_t k = 0; k < size_; ++k)
-        weights[k] =
-            unit < 256 ? components_[k].weight : static_cast<std::int32_t>(product[k] / unit);
-    return weights;
+    return shares(
+        size_, [&](std::size_t k) { return components_[k].weight; },
+        [&](std::size_t k) { return expected[k]; });
 }
 
 PlaneMixture::Weights PlaneMixture::expected_x(std::int32_t cell_x) const {

@@ -19,6 +19,14 @@ inline constexpr std::int32_t most_mean = 1 << 28;
 inline constexpr std::int32_t least_sd = 16;
 inline constexpr std::int32_t most_sd = 1 << 20;
 
+/// Lengths in 1/256 cell, within those bounds.
+inline std::int32_t in_q8(std::int64_t cells) {
+    return static_cast<std::int32_t>(clamp(cells * 256, -most_mean, most_mean));
+}
+inline std::int32_t scaled(std::int32_t length, std::int32_t scale_q8) {
+    return static_cast<std::int32_t>(clamp(std::int64_t{length} * scale_q8 >> 8, 0, most_sd));
+}
+
 /// The boundary between a cell and the one above it.
 inline std::int32_t upper_edge(std::int32_t cell) {
     return static_cast<std::int32_t>(

@@ -47,6 +47,11 @@ struct Motion {
     void restart(const Cell& cell);
     void step(const Cell& cell);
 
+    /// Class of the last step's turn, and steps since one: below 3, 8, more; 0 to 11.
+    std::size_t turn_context() const {
+        return turn_class * 3 + (since_turn < 3 ? 0 : since_turn < 8 ? 1 : 2);
+    }
+
     /// What the filters expect next, from `last`, 1/256 cell.
     Pair expected(const PlaneFilter& filter) const;
     std::int32_t expected(const DepthFilter& filter) const;

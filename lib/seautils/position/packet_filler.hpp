@@ -33,7 +33,6 @@ public:
 
 private:
     bool put(const Fix& fix);
-    bool fits() const;
     PacketHeader header(std::size_t count) const;
     void send();
 

@@ -10,18 +10,8 @@ namespace seautils::position {
 namespace {
 
 constexpr std::array<std::int32_t, 3> scales{128, 256, 768};  // 0.5, 1, 3
-constexpr std::array<std::int32_t, 4> depth_scales{128, 230, 435, 1024};
-constexpr std::int32_t leg_rate = 3277, share_rate = 1311;  // 0.05, 0.02
-constexpr std::int64_t error_rate_q8 = 13;
-constexpr std::uint32_t patience = 8;  // steps in a row that no leg explains
-
-std::int32_t scaled(std::int32_t v, std::int32_t scale_q8) {
-    return static_cast<std::int32_t>(clamp(std::int64_t{v} * scale_q8 >> 8, 0, most_sd));
-}
-
-std::int32_t in_q8(std::int64_t cells) {
-    return static_cast<std::int32_t>(clamp(cells * 256, -most_mean, most_mean));
-}
+constexpr std::int32_t leg_rate = 3277, share_rate = 1311;    // 0.05, 0.02
+constexpr std::uint32_t patience = 8;                         // steps in a row that no leg explains
 
 std::int64_t squared_distance(const Cell& a, const Cell& b) {
     const std::int64_t x = a.x - std::int64_t{b.x}, y = a.y - std::int64_t{b.y};
@@ -148,8 +138,8 @@ void PlanModel::learn_plane(const Motion& motion, const PlaneMixture& said, cons
     const Direction d = direction_of(mean, 1, motion.heading);
     const Pair moved{in_q8(step.x), in_q8(step.y)};
     const Pair error = into_frame({moved.x - mean.x, moved.y - mean.y}, d);
-    along_.take(square(error.x), error_rate_q8);
-    across_.take(square(error.y), error_rate_q8);
+    along_.take(square(error.x), filter_rate_q8);
+    across_.take(square(error.y), filter_rate_q8);
     shares_.follow(sizes, share_rate, one_q20 / 100);
     legs_.follow(legs, leg_rate, one_q20 / 20);
     const auto size = static_cast<std::int32_t>(std::min<std::uint32_t>(length(moved), most_mean));
@@ -170,7 +160,7 @@ void PlanModel::learn_depth(const Motion& motion, const Mixture& said, std::int3
     }
     const std::size_t on = legs[1] > legs[0] ? 1 : 0;
     const std::int64_t error = in_q8(step) - depth_towards(motion, next_ + on);
-    depth_error_.take(square(error), error_rate_q8);
+    depth_error_.take(square(error), filter_rate_q8);
     depth_shares_.follow(sizes, share_rate, one_q20 / 100);
     depth_legs_.follow(legs, leg_rate, one_q20 / 20);
     const std::int32_t size = std::abs(in_q8(step));

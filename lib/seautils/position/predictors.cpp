@@ -6,30 +6,23 @@ namespace seautils::position {
 
 namespace {
 
-constexpr std::int64_t filter_rate_q8 = 13, analog_rate_q8 = 8;
+constexpr std::int64_t analog_rate_q8 = 8;
 constexpr std::int32_t share_rate = 5243;  // 0.08
 
-std::int32_t scaled(std::int32_t v, std::int32_t scale_q8) {
-    return static_cast<std::int32_t>(clamp(std::int64_t{v} * scale_q8 >> 8, 0, most_sd));
-}
-
-Pair in_q8(const Cell& step) {
-    const auto q8 = [](std::int32_t v) {
-        return static_cast<std::int32_t>(clamp(std::int64_t{v} * 256, -most_mean, most_mean));
-    };
-    return {q8(step.x), q8(step.y)};
-}
+Pair in_q8(const Cell& step) { return {position::in_q8(step.x), position::in_q8(step.y)}; }
 
 constexpr std::array<std::int32_t, 3> filter_scales{154, 307, 768};  // 0.6, 1.2, 3
 constexpr std::array<std::int32_t, 3> analog_scales{60, 160, 700};   // 0.23, 0.63, 2.7
-constexpr std::array<std::int32_t, 4> depth_scales{128, 230, 435, 1024};
 
-/// 1 / (rank + 2) of n, together 1, Q20.
-std::int32_t rank_share(std::size_t rank, std::size_t n) {
-    std::int64_t total = 0;
+/// 1 / (rank + 2) of the first n, together 1, Q20.
+std::array<std::int32_t, Analogs::most_found> rank_shares(std::size_t n) {
+    std::int64_t total = 1;
     for (std::size_t k = 0; k < n; ++k) total += one_q20 / static_cast<std::int32_t>(k + 2);
-    return static_cast<std::int32_t>((std::int64_t{one_q20} << 20) /
-                                     static_cast<std::int32_t>(rank + 2) / (total + 1));
+    std::array<std::int32_t, Analogs::most_found> share{};
+    for (std::size_t k = 0; k < n; ++k)
+        share[k] = static_cast<std::int32_t>((std::int64_t{one_q20} << 20) /
+                                             static_cast<std::int32_t>(k + 2) / total);
+    return share;
 }
 
 template <std::size_t N>
@@ -111,15 +104,10 @@ TurnModel::TurnModel() {
     speed_ = 10 * 256;
 }
 
-std::size_t TurnModel::context(const Motion& motion) {
-    const std::size_t age = motion.since_turn < 3 ? 0 : motion.since_turn < 8 ? 1 : 2;
-    return motion.turn_class * 3 + age;
-}
-
 PlaneMixture TurnModel::predict(const Motion& motion) const {
     PlaneMixture m;
     if (motion.known == 0) return m;
-    const auto& counts = counts_[context(motion)];
+    const auto& counts = counts_[motion.turn_context()];
     std::int64_t total = 1;
     for (const std::int32_t c : counts) total += c;
     for (std::size_t end = 0; end < ends; ++end) {
@@ -151,7 +139,7 @@ void TurnModel::learn(const Motion& motion, const PlaneMixture& said, const Cell
     const auto size = static_cast<std::int32_t>(std::min<std::uint32_t>(length(q), most_mean));
     if (motion.known > 0) {
         const auto each = said.responsibility(step.x, step.y);
-        auto& counts = counts_[context(motion)];
+        auto& counts = counts_[motion.turn_context()];
         for (std::size_t end = 0; end < ends; ++end) {
             counts[end] += (each[end] >> 6) - counts[end] / 512;
             if (end >= 2 * angles || speed_ < 16) continue;
@@ -224,13 +212,13 @@ PlaneMixture AnalogModel::predict(const Motion& motion) {
     if (!v.usable) return m;
     std::array<Analogs::Found, Analogs::most_found> found;
     const std::size_t n = memory_.find(v.features, found);
+    const auto rank = rank_shares(n);
     const std::int32_t sd = error_.root();
     for (std::size_t k = 0; k < n; ++k) {
         const Pair outcome = out_of_frame(found[k].outcome, v.frame);
         const Pair mean{v.base.x + outcome.x, v.base.y + outcome.y};
-        const std::int64_t rank = rank_share(k, n);
         for (std::size_t s = 0; s < 3; ++s)
-            m.add(static_cast<std::int32_t>(rank * shares_[s] >> 20), mean,
+            m.add(static_cast<std::int32_t>(std::int64_t{rank[k]} * shares_[s] >> 20), mean,
                   scaled(sd, analog_scales[s]));
     }
     return m;
@@ -288,19 +276,18 @@ Mixture DepthAnalogModel::predict(const Motion& motion) {
     if (motion.known < 3) return m;
     std::array<Analogs::Found, 10> found;
     const std::size_t n = memory_.find(view(motion), found);
+    const auto rank = rank_shares(n);
     for (std::size_t k = 0; k < n; ++k) {
-        const std::int64_t rank = rank_share(k, n);
         for (std::size_t s = 0; s < 3; ++s)
-            m.add(static_cast<std::int32_t>(rank * shares_[s] >> 20), found[k].outcome.x,
-                  scaled(error_.root(), analog_scales[s]));
+            m.add(static_cast<std::int32_t>(std::int64_t{rank[k]} * shares_[s] >> 20),
+                  found[k].outcome.x, scaled(error_.root(), analog_scales[s]));
     }
     return m;
 }
 
 void DepthAnalogModel::learn(const Motion& motion, const Mixture& said, std::int32_t step) {
     if (motion.known < 3) return;
-    const auto q =
-        static_cast<std::int32_t>(clamp(std::int64_t{step} * 256, -most_mean, most_mean));
+    const std::int32_t q = position::in_q8(step);
     if (said.size() > 0) {
         const auto each = responsibility(said, step);
         std::int64_t error = 0;

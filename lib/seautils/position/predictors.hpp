@@ -13,6 +13,10 @@
 /// distributions of the next step, and learns from the step that came.
 namespace seautils::position {
 
+/// Errors along z, of the usual one: 0.5, 0.9, 1.7, 4.
+inline constexpr std::array<std::int32_t, 4> depth_scales{128, 230, 435, 1024};
+inline constexpr std::int64_t filter_rate_q8 = 13;  ///< of a filter's running mean square
+
 /// Shares of some alternatives that are learnt: Q20, together 1.
 template <std::size_t N>
 class Shares {
@@ -103,8 +107,6 @@ public:
     }
 
 private:
-    static std::size_t context(const Motion& motion);
-
     std::array<std::array<std::int32_t, ends>, 12> counts_{};  ///< Q14
     std::array<std::int32_t, angles> ratio_{};  ///< of the step to the usual one, Q12
     std::int32_t speed_ = 0;                    ///< usual step, 1/256 cell

@@ -156,6 +156,16 @@ Step TrackState::full_step(std::uint32_t ahead, entropy::Decoder& in) const {
     return step;
 }
 
+/// What the codec found, and learnt, is the next position.
+Step TrackState::decoded(const std::optional<Cell>& cell) {
+    if (!cell) throw DataError("packet ends before its positions");
+    const Step step{1, false, {due_ms(1), *cell}};
+    check_time(step.fix.time_ms);
+    horizon_->learn(*cell);
+    note(step);
+    return step;
+}
+
 Step TrackState::decode(entropy::Decoder& in) {
     if (in.bit(full_chance)) {
         const Step step = full_step(1, in);
@@ -163,13 +173,7 @@ Step TrackState::decode(entropy::Decoder& in) {
         return step;
     }
     if (number_ == 0) throw DataError("packet: the first position is no full fix");
-    const std::optional<Cell> cell = codec_->decode(in);
-    if (!cell) throw DataError("packet ends before its positions");
-    const Step step{1, false, {due_ms(1), *cell}};
-    check_time(step.fix.time_ms);
-    horizon_->learn(*cell);
-    note(step);
-    return step;
+    return decoded(codec_->decode(in));
 }
 
 void TrackState::encode_alone(const Step& step, entropy::BitString& out) {
@@ -191,13 +195,7 @@ Step TrackState::decode_alone(std::uint32_t ahead, bool is_full, entropy::BitRea
         learn(step);
         return step;
     }
-    const std::optional<Cell> cell = codec_->decode_alone(in);
-    if (!cell) throw DataError("packet ends before its positions");
-    const Step step{1, false, {due_ms(1), *cell}};
-    check_time(step.fix.time_ms);
-    horizon_->learn(*cell);
-    note(step);
-    return step;
+    return decoded(codec_->decode_alone(in));
 }
 
 void TrackState::encode_peek(const Step& step, entropy::Encoder& out) const {

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -57,6 +58,7 @@ public:
 private:
     Step full_step(std::uint32_t ahead, entropy::Decoder& in) const;
     void learn_jump(const Step& step);
+    Step decoded(const std::optional<Cell>& cell);
     void note(const Step& step);
 
     const LinkOptions* options_;

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -52,16 +53,20 @@ void settle_name(const std::string& path) {
     settle(file, folder);
 }
 
+constexpr std::size_t first_block = 64 * 1024;
+
 }  // namespace
 
 std::optional<std::string> read_whole_file(const std::string& path, std::size_t most) {
     const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.fd < 0 && errno == ENOENT) return std::nullopt;
     if (file.fd < 0) fail(ExitCode::no_input, path);
-    std::string bytes(most, '\0');
+    std::string bytes;
     std::size_t used = 0;
     while (used < most) {
-        const ssize_t n = ::read(file.fd, bytes.data() + used, most - used);
+        // As much again as was there: a small file takes little memory, whatever it might have been.
+        if (used == bytes.size()) bytes.resize(std::min(most, std::max(first_block, 2 * used)));
+        const ssize_t n = ::read(file.fd, bytes.data() + used, bytes.size() - used);
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) fail(ExitCode::no_input, path);
         if (n == 0) break;
