@@ -154,7 +154,7 @@ void TurnModel::learn(const Motion& motion, const PlaneMixture& said, const Cell
 AnalogModel::AnalogModel(Kind kind, std::size_t capacity)
     : kind_(kind),
       memory_(capacity, kind == Kind::path || kind == Kind::innovation ? 5 : 4,
-              kind == Kind::path || kind == Kind::innovation, kind == Kind::path ? 2 : 2) {}
+              kind == Kind::path || kind == Kind::innovation, 3) {}
 
 AnalogModel::View AnalogModel::view(const Motion& motion) const {
     View v{{}, {}, {}, motion.known >= 3};
