@@ -132,7 +132,7 @@ TEST(Sampler, each_cell_is_within_half_a_resolution_of_the_line) {
             const Sample& s = samples[k];
             RC_ASSERT(s.time_ms * 1000 <= fixes.back().time_us);
             RC_ASSERT(s.starts == (k == 0));
-            RC_ASSERT(k == 0 || s.time_ms == samples[k - 1].time_ms + options.interval_ms);
+            RC_ASSERT((k == 0 || s.time_ms == samples[k - 1].time_ms + options.interval_ms));
             const Place at = place_of(options.grid, s.cell);
             const double xy = static_cast<double>(options.grid.resolution_mm) / 2000 + 1e-9;
             const double z = static_cast<double>(options.grid.resolution_z_mm) / 2000 + 1e-9;
