@@ -19,8 +19,9 @@ unset XDG_CONFIG_HOME XDG_CONFIG_DIRS XDG_DATA_HOME XDG_DATA_DIRS
 
 # run_quiet COMMAND...: it succeeds, and says nothing on standard error.
 run_quiet() {
-    run -0 --separate-stderr "$@"
+    run --separate-stderr "$@"
     # shellcheck disable=SC2154  # run sets it
+    [[ $status -eq 0 ]] || fail "status $status of $*"$'\n'"$output"$'\n'"$stderr"
     assert_equal "$stderr" ''
 }
 

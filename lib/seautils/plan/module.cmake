@@ -1,0 +1,4 @@
+seautils_module(NAME plan
+  SOURCES
+    acomms_depth.cpp
+  DEPENDS core LINK fmt::fmt)

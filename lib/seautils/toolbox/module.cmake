@@ -1,0 +1,4 @@
+seautils_module(NAME toolbox
+  SOURCES
+    env_file.cpp
+  DEPENDS core propagation LINK fmt::fmt)
