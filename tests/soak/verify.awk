@@ -7,8 +7,7 @@ BEGIN {
     split(to_sim, clock, " ")
     answer_cs = 500  # a queue that takes longer to answer, stalls of half a second included, counts as hung
     step_s = 10  # its clock, which drop records have their times from, may be so wrong
-    before_s = 1 + 0.1 * clock[1]  # around the death of an mm-serial: what it had not yet written, what it was not yet there for
-    after_s = 1 + 0.2 * clock[1]
+    before_s = 1 + 0.1 * clock[1]  # before the death of an mm-serial: what it had read and not yet written
 }
 
 function sea(cs) { return clock[3] + clock[1] * (cs / 100 - clock[2]) }
@@ -37,6 +36,7 @@ $1 == "dropped" {
 $1 == "left" { left[$2] += $3; told[$2] = 1 }
 $1 == "slot" { if ($3 > last_slot[$2]) last_slot[$2] = $3 }
 $1 == "line" { if ($3 > last_line[$2]) last_line[$2] = $3 }
+$1 == "host" { host_at[$2, ++hosts[$2]] = $3 }
 $1 == "said" { ++n_said; said_node[n_said] = $2; said_at[n_said] = $3; said_hex[n_said] = $4 }
 $1 == "reboots" { reboots = $2; starts_of_modems = $3 }
 $1 == "trouble" {
@@ -55,13 +55,18 @@ $1 == "trouble" {
     }
 }
 
+# When an mm-serial that was started then first spoke to the modem: until then it may not have listened.
+function spoke_at(node, start,    k) {
+    for (k = 1; k <= hosts[node]; ++k) if (host_at[node, k] >= start) return host_at[node, k]
+    return start
+}
 # Whether the node's mm-serial was killed or away about a time at sea.
 function was_away(node, at,    k, j, back) {
     for (k = 1; k <= kills[node, "mm-serial"]; ++k) {
         back = kill_at[node, "mm-serial", k]
         for (j = 1; j <= starts[node, "mm-serial"]; ++j)
-            if (start_at[node, "mm-serial", j] >= kill_at[node, "mm-serial", k]) { back = start_at[node, "mm-serial", j]; break }
-        if (at >= kill_at[node, "mm-serial", k] - before_s && at <= back + after_s) return 1
+            if (start_at[node, "mm-serial", j] >= kill_at[node, "mm-serial", k]) { back = spoke_at(node, start_at[node, "mm-serial", j]); break }
+        if (at >= kill_at[node, "mm-serial", k] - before_s && at <= back + 1) return 1
     }
     return 0
 }
