@@ -7,14 +7,11 @@
 #include "seautils/core/text.hpp"
 #include "seautils/dccl/models.hpp"
 #include "seautils/dccl/type_set.hpp"
+#include "seautils/stream/whole_file.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,30 +72,7 @@ private:
     void check_legacy(const dccl::TypeSet& types, const cli::Io& io) const;
 };
 
-/// All that comes from a descriptor; `name` stands for it in messages.
-/// @throws Error(no_input)  cannot be read
-/// @throws ConfigError      longer than 1 MiB
-inline std::string descriptor_text(int fd, const std::string& name) {
-    std::string text;
-    char block[4096];
-    for (;;) {
-        const ssize_t n = ::read(fd, block, sizeof block);
-        if (n == 0) return text;
-        if (n < 0 && errno != EINTR)
-            throw Error(ExitCode::no_input, name + ": " + std::strerror(errno));
-        if (n > 0) text.append(block, static_cast<std::size_t>(n));
-        if (text.size() > 1U << 20) throw ConfigError(name + ": longer than 1 MiB");
-    }
-}
-
-/// The same of a file.
-inline std::string file_text(const std::string& path) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) throw Error(ExitCode::no_input, path + ": " + std::strerror(errno));
-    const std::unique_ptr<const int, void (*)(const int*)> closer(
-        &fd, [](const int* f) { ::close(*f); });
-    return descriptor_text(fd, path);
-}
+inline constexpr std::size_t most_option_bytes = 1U << 20;
 
 /// From the file, the descriptor, or the file that SEAUTILS_PASSPHRASE_FILE names; without the line
 /// end that editors put at the end of a file.
@@ -106,12 +80,13 @@ inline std::optional<std::string> DcclOptions::passphrase() const {
     std::string text;
     const char* named = std::getenv("SEAUTILS_PASSPHRASE_FILE");
     if (!passphrase_file.empty()) {
-        text = file_text(passphrase_file);
+        text = stream::read_input_file(passphrase_file, most_option_bytes);
     } else if (passphrase_fd >= 0) {
-        text = descriptor_text(passphrase_fd,
-                               "passphrase descriptor " + std::to_string(passphrase_fd));
+        text = stream::read_input_descriptor(
+            passphrase_fd, "passphrase descriptor " + std::to_string(passphrase_fd),
+            most_option_bytes);
     } else if (named != nullptr && *named != '\0') {
-        text = file_text(named);
+        text = stream::read_input_file(named, most_option_bytes);
     } else {
         return std::nullopt;
     }
@@ -151,7 +126,7 @@ inline dccl::TypeSet DcclOptions::load(cli::Io& io) const {
     program.id_codec = id_codec == "ccl" ? dccl::IdCodec::ccl : dccl::IdCodec::standard;
     program.field_codecs = field_codecs;
     for (const std::string& file : arithmetic_models) {
-        const std::string text = file_text(file);
+        const std::string text = stream::read_input_file(file, most_option_bytes);
         try {
             dccl::add_model(text, program.models);
         } catch (const ConfigError& e) {

@@ -3,13 +3,10 @@
 #include "mm_sim_clock.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/stream/whole_file.hpp"
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
 #include <functional>
-#include <iterator>
 
 using namespace seautils;
 
@@ -34,18 +31,14 @@ std::function<std::string(std::string)> in_range(unsigned most, const char* unit
     };
 }
 
-std::string file_text(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(ExitCode::no_input, file + ": " + std::strerror(errno));
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Files that a scenario names are looked for beside it.
 sim::Scenario load(const std::string& file, sim::Time now) {
+    constexpr std::size_t most_bytes = 16U << 20;
     const std::string folder = file.substr(0, file.rfind('/') + 1);
-    const sim::Scenario scenario =
-        sim::parse_scenario(file, file_text(file), now, [&](const std::string& name) {
-            return file_text(name.starts_with('/') ? name : folder + name);
+    const sim::Scenario scenario = sim::parse_scenario(
+        file, stream::read_input_file(file, most_bytes), now, [&](const std::string& name) {
+            return stream::read_input_file(name.starts_with('/') ? name : folder + name,
+                                           most_bytes);
         });
     for (const sim::NodeSpec& node : scenario.nodes)
         if (node.name == "clock") throw ConfigError(file + ": the name 'clock' is taken");

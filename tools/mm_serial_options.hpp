@@ -138,11 +138,8 @@ inline void MmSerialOptions::settle() {
     modem.reset = !no_reset;
     modem.id = id;
     modem.poll_wait = std::chrono::milliseconds(static_cast<std::int64_t>(poll_wait_s * 1000));
-    if (!rates.empty()) {
-        const auto text = stream::read_whole_file(rates, 1U << 20);
-        if (!text) throw Error(ExitCode::no_input, rates + ": No such file or directory");
-        modem.rates = RateTable::parse(*text, rates);
-    }
+    if (!rates.empty())
+        modem.rates = RateTable::parse(stream::read_input_file(rates, 1U << 20), rates);
     if (replay) {
         if (id == 0) modem.id = 1;
     } else if (id == 0) {

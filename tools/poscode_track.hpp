@@ -164,9 +164,7 @@ public:
         position::FixReader::Options options = reading("auto");
         options.is_timeless = true;
         position::FixReader reader(std::move(options));
-        const auto read = stream::read_whole_file(plan_, most_plan_bytes);
-        if (!read) throw Error(ExitCode::no_input, plan_ + ": No such file or directory");
-        const std::string& text = *read;
+        const std::string text = stream::read_input_file(plan_, most_plan_bytes);
         std::size_t line = 0;
         for (std::size_t at = 0; at < text.size();) {
             const std::size_t end = std::min(text.find('\n', at), text.size());

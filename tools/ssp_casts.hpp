@@ -72,11 +72,10 @@ private:
 inline acoustics::Profile read_climatology(const SspOptions& options) {
     constexpr std::size_t most_bytes = 64U << 20;
     const std::string& file = options.climatology;
-    const auto text = stream::read_whole_file(file, most_bytes);
-    if (!text) throw Error(ExitCode::no_input, file + ": No such file or directory");
+    const std::string text = stream::read_input_file(file, most_bytes);
     ScanReader reader("auto", options.columns);
     std::vector<acoustics::Sample> samples;
-    std::string_view rest = *text;
+    std::string_view rest = text;
     for (std::size_t line = 1; !rest.empty(); ++line) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         try {

@@ -253,9 +253,7 @@ inline void TdmaOptions::check_schedule() const {
 inline RateTable TdmaOptions::rate_table() const {
     if (rates.empty()) return {};
     constexpr std::size_t most_bytes = 1 << 20;
-    const auto text = stream::read_whole_file(rates, most_bytes);
-    if (!text) throw Error(ExitCode::no_input, rates + ": No such file or directory");
-    return RateTable::parse(*text, rates);
+    return RateTable::parse(stream::read_input_file(rates, most_bytes), rates);
 }
 
 /// Each value alone was sound; together they may not be.

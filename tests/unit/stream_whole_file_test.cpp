@@ -37,6 +37,16 @@ TEST(StreamWholeFile, WhatCannotBeReadOrMadeIsNamed) {
         }
     };
     const std::string path = folder.path();
+    EXPECT_EQ(failure([&] { read_input_file(path + "/none", 10); }),
+              "66 " + path + "/none: No such file or directory");
+    replace_file(folder.file("ten"), "0123456789");
+    EXPECT_EQ(read_input_file(folder.file("ten"), 10), "0123456789");
+    EXPECT_EQ(failure([&] { read_input_file(folder.file("ten"), 9); }),
+              "78 " + folder.file("ten") + ": longer than 9 bytes");
+    EXPECT_EQ(failure([&] { read_input_file("/dev/zero", 3U << 20); }),
+              "78 /dev/zero: longer than 3 MiB");
+    EXPECT_EQ(failure([&] { read_input_descriptor(99, "descriptor 99", 9); }),
+              "66 descriptor 99: Bad file descriptor");
     EXPECT_EQ(failure([&] { read_whole_file(path, 10); }), "66 " + path + ": Is a directory");
     EXPECT_EQ(failure([&] { replace_file(folder.file("gone/x"), "x"); }),
               "73 " + folder.file("gone/x.new") + ": No such file or directory");

@@ -1,6 +1,7 @@
 #include "seautils/stream/whole_file.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -55,24 +56,49 @@ void settle_name(const std::string& path) {
 
 constexpr std::size_t first_block = 64 * 1024;
 
+std::string read_up_to(std::size_t most, int fd, const std::string& name) {
+    std::string bytes;
+    std::size_t used = 0;
+    while (used < most) {
+        // As much again as was there: a small file takes little memory, whatever it might have been.
+        if (used == bytes.size()) bytes.resize(std::min(most, std::max(first_block, 2 * used)));
+        const ssize_t n = ::read(fd, bytes.data() + used, bytes.size() - used);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail(ExitCode::no_input, name);
+        if (n == 0) break;
+        used += static_cast<std::size_t>(n);
+    }
+    bytes.resize(used);
+    return bytes;
+}
+
+void refuse_beyond(std::size_t most, const std::string& bytes, const std::string& name) {
+    constexpr std::size_t mebibyte = 1U << 20;
+    if (bytes.size() <= most) return;
+    throw ConfigError(
+        name + ": longer than " +
+        (most % mebibyte == 0 ? std::to_string(most / mebibyte) + " MiB" : counted(most, "byte")));
+}
+
 }  // namespace
 
 std::optional<std::string> read_whole_file(const std::string& path, std::size_t most) {
     const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.fd < 0 && errno == ENOENT) return std::nullopt;
     if (file.fd < 0) fail(ExitCode::no_input, path);
-    std::string bytes;
-    std::size_t used = 0;
-    while (used < most) {
-        // As much again as was there: a small file takes little memory, whatever it might have been.
-        if (used == bytes.size()) bytes.resize(std::min(most, std::max(first_block, 2 * used)));
-        const ssize_t n = ::read(file.fd, bytes.data() + used, bytes.size() - used);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) fail(ExitCode::no_input, path);
-        if (n == 0) break;
-        used += static_cast<std::size_t>(n);
-    }
-    bytes.resize(used);
+    return read_up_to(most, file.fd, path);
+}
+
+std::string read_input_file(const std::string& path, std::size_t most) {
+    std::optional<std::string> bytes = read_whole_file(path, most + 1);
+    if (!bytes) throw Error(ExitCode::no_input, path + ": " + std::strerror(ENOENT));
+    refuse_beyond(most, *bytes, path);
+    return *std::move(bytes);
+}
+
+std::string read_input_descriptor(int fd, const std::string& name, std::size_t most) {
+    std::string bytes = read_up_to(most + 1, fd, name);
+    refuse_beyond(most, bytes, name);
     return bytes;
 }
 
