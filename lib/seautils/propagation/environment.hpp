@@ -1,6 +1,7 @@
 #ifndef SEAUTILS_PROPAGATION_ENVIRONMENT_HPP
 #define SEAUTILS_PROPAGATION_ENVIRONMENT_HPP
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -130,9 +131,22 @@ struct Environment {
     Fan fan;
 };
 
-/// What would be computed from it means something: all numbers are finite and within their bounds, lists grow and
-/// match, and the source lies in the water.
-/// @throws DataError  names the field, its value and its bound
+/// What check() holds numbers to; all are finite.
+struct Bounds {
+    static constexpr double least_frequency_hz = 0.1, most_frequency_hz = 1e7;
+    static constexpr double most_depth_m = 12000;  ///< from -100, where a surface has waves
+    static constexpr double most_range_m = 2.1e7;
+    static constexpr double least_speed_mps = 100, most_speed_mps = 10000;
+    static constexpr double least_density_gcm3 = 0.001, most_density_gcm3 = 20;
+    static constexpr std::size_t most_points = 2'000'000;      ///< of any list
+    static constexpr std::size_t most_receivers = 20'000'000;  ///< depths times ranges
+    static constexpr std::uint32_t most_beams = 1'000'000;
+};
+
+/// What would be computed from it means something: numbers are within Bounds, lists grow and match,
+/// and the source lies in the water.
+/// @throws DataError  `FIELD VALUE is outside LEAST to MOST UNIT`, or what else is wrong with a field,
+///                    which is named as here: `water.profile[3].sound_speed_mps`
 void check(const Environment& environment);
 
 /// Depth of a line at a range, straight between points.

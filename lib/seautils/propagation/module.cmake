@@ -1,5 +1,6 @@
 seautils_module(NAME propagation
   SOURCES
+    absorption.cpp
     engine.cpp
     environment.cpp
     modes.cpp
