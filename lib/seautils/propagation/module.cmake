@@ -1,11 +1,14 @@
 seautils_module(NAME propagation
   SOURCES
     absorption.cpp
-    beam_sum.cpp
+    beam_columns.cpp
+    beam_intensity.cpp
+    beam_pressure.cpp
     engine.cpp
     environment.cpp
     modes.cpp
     ray_beam.cpp
+    ray_fan.cpp
     ray_layers.cpp
     ray_sea.cpp
     ray_tracer.cpp

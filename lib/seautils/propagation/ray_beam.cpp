@@ -7,6 +7,7 @@
 #include <numbers>
 
 namespace seautils::propagation {
+namespace {
 
 void bounce(const RaySea& sea, Leg& leg) {
     const auto& wall = leg.touch == Touch::surface ? sea.surface : sea.bottom;
@@ -23,16 +24,16 @@ void bounce(const RaySea& sea, Leg& leg) {
     leg.phase_rad = std::arg(r);
 }
 
-/// A source on a wall: the ray that would leave the water begins as its reflection.
-void BeamWalk::launch(const RayTracer& tracer, BeamState& state) const {
-    if (tracer.touch_at_launch() == Touch::none) return;
-    Leg leg;
-    leg.touch = tracer.touch_at_launch();
-    leg.grazing_sine = tracer.grazing_sine_at_launch();
-    leg.speed_mps = sea_.source_speed_mps;
-    bounce(sea_, leg);
-    pass(leg, state);
-    state.q = 0;
+}  // namespace
+
+void finish(const RaySea& sea, Leg& leg) {
+    if (leg.touch != Touch::none) bounce(sea, leg);
+    const double along_m = leg.whole.along_m;
+    leg.length_per_m = along_m == 0 ? 0 : leg.whole.length_m / along_m;
+    leg.spread_per_m = along_m == 0 ? 0 : leg.whole.spread / along_m;
+    leg.fade = sea.absorption_np_per_m == 0
+                   ? 1
+                   : std::exp(-2 * sea.absorption_np_per_m * leg.whole.length_m);
 }
 
 }  // namespace seautils::propagation

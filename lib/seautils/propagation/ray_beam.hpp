@@ -9,7 +9,7 @@
 
 namespace seautils::propagation {
 
-/// What a ray has gathered where a leg begins.
+/// What a ray has gathered where a leg begins: all of it.
 struct BeamState {
     double range_m = 0, delay_s = 0, length_m = 0;
     double p = 1, q = 0;  ///< the Acoustics Toolbox's: q = c0·s where c is constant
@@ -17,11 +17,18 @@ struct BeamState {
     std::uint32_t surface_bounces = 0, bottom_bounces = 0, caustics = 0;
 };
 
+/// Only what an intensity needs.
+struct EnergyState {
+    double range_m = 0, length_m = 0, p = 1, q = 0;
+    double amplitude = 1;  ///< left by the walls
+    double fade = 1;       ///< of intensity, by the water
+};
+
 /// A ray stops after so many legs, whatever the world.
 inline constexpr std::uint64_t most_legs = 200'000;
 
-/// Multiplies a state by what a wall does.
-void bounce(const RaySea& sea, Leg& leg);
+/// Adds to a leg what its wall does and what follows from its whole.
+void finish(const RaySea& sea, Leg& leg);
 
 inline void pass(const Leg& leg, BeamState& state) {
     const double q = state.q + state.p * leg.whole.spread;
@@ -37,18 +44,27 @@ inline void pass(const Leg& leg, BeamState& state) {
     ++(leg.touch == Touch::surface ? state.surface_bounces : state.bottom_bounces);
 }
 
-/// Legs of one ray, and of its first cycle where the sea is periodic.
+inline void pass(const Leg& leg, EnergyState& state) {
+    state.q += state.p * leg.whole.spread;
+    state.p += leg.kick * state.q;
+    state.range_m += leg.whole.along_m;
+    state.length_m += leg.whole.length_m;
+    state.amplitude *= leg.magnitude;
+    state.fade *= leg.fade;
+}
+
+/// Legs of one ray; where the sea is periodic, of its first cycle, again and again.
 class BeamWalk {
 public:
     explicit BeamWalk(const RaySea& sea) : sea_(sea) {}
 
     /// Calls visit(leg, state) for each leg up to `stop_m` in range, with the state at its beginning; the leg's own
-    /// range_m counts within the cycle. visit returns false to end the ray. It ends by itself when its amplitude is
-    /// below `least_amplitude`.
-    template <class Visit>
+    /// range_m counts within the cycle. The ray ends there, when visit returns false, or when its amplitude is below
+    /// `least_amplitude`.
+    template <class State, class Visit>
     void run(double launch_rad, double stop_m, double least_amplitude, Visit&& visit) {
         RayTracer tracer(sea_, launch_rad, stop_m);
-        BeamState state;
+        State state;
         launch(tracer, state);
         cycle_.clear();
         std::uint64_t left = most_legs;
@@ -60,7 +76,7 @@ public:
         Leg leg;
         bool whole = false;
         while (!whole && tracer.next(leg)) {
-            if (leg.touch != Touch::none) bounce(sea_, leg);
+            finish(sea_, leg);
             if (!step(leg)) return;
             if (!sea_.periodic) continue;
             cycle_.push_back(leg);
@@ -72,7 +88,17 @@ public:
     }
 
 private:
-    void launch(const RayTracer& tracer, BeamState& state) const;
+    /// A source on a wall: the ray that would leave the water begins as its reflection.
+    template <class State>
+    void launch(const RayTracer& tracer, State& state) const {
+        if (tracer.touch_at_launch() == Touch::none) return;
+        Leg leg;
+        leg.touch = tracer.touch_at_launch();
+        leg.grazing_sine = tracer.grazing_sine_at_launch();
+        leg.speed_mps = sea_.source_speed_mps;
+        finish(sea_, leg);
+        pass(leg, state);
+    }
 
     const RaySea& sea_;
     std::vector<Leg> cycle_;

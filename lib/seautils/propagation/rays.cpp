@@ -1,67 +1,125 @@
 #include "seautils/propagation/rays.hpp"
 
 #include "seautils/core/error.hpp"
-#include "seautils/propagation/beam_sum.hpp"
+#include "seautils/propagation/beam_intensity.hpp"
+#include "seautils/propagation/beam_pressure.hpp"
+#include "seautils/propagation/ray_fan.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <numbers>
+#include <thread>
 
 namespace seautils::propagation {
 namespace {
 
-constexpr double rad_per_deg = std::numbers::pi / 180;
+/// Beams are added in so many blocks, each on its own, then block to block: the sums are the same whatever the number
+/// of threads. Fewer where the grid is large.
+std::size_t blocks_of(std::size_t cells) {
+    return std::clamp<std::size_t>(4'000'000 / (cells + 1), 2, 8);
+}
 
-double level_at(const std::vector<PatternPoint>& pattern, double angle_deg) {
-    const auto amplitude = [](const PatternPoint& p) { return std::pow(10, p.level_db / 20); };
-    if (pattern.empty()) return 1;
-    const auto above =
-        std::upper_bound(pattern.begin(), pattern.end(), angle_deg,
-                         [](double angle, const PatternPoint& p) { return angle < p.angle_deg; });
-    if (above == pattern.begin()) return amplitude(pattern.front());
-    if (above == pattern.end()) return amplitude(pattern.back());
-    const auto& a = *(above - 1);
-    const double part = (angle_deg - a.angle_deg) / (above->angle_deg - a.angle_deg);
-    return amplitude(a) + (amplitude(*above) - amplitude(a)) * part;
+/// Runs work(block) for each block; the blocks are shared out to threads as they come free.
+template <class Work>
+void for_each_block(std::size_t blocks, std::uint32_t threads, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    std::vector<std::exception_ptr> failures(std::max<std::uint32_t>(threads, 1));
+    const auto run = [&](std::size_t thread) {
+        try {
+            for (std::size_t block = next++; block < blocks; block = next++) work(block);
+        } catch (...) {
+            failures[thread] = std::current_exception();
+        }
+    };
+    std::vector<std::thread> others;
+    for (std::uint32_t k = 1; k < std::min<std::size_t>(threads, blocks); ++k)
+        others.emplace_back(run, k);
+    run(0);
+    for (auto& thread : others) thread.join();
+    for (const auto& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+}
+
+/// All beams, added in blocks.
+template <class Sums>
+Sums add_beams(const RaySea& sea, const Columns& columns, const BeamKind& kind,
+               const std::vector<Launch>& fan, std::uint32_t threads) {
+    const std::size_t blocks = blocks_of(columns.cells());
+    std::vector<Sums> sums;
+    sums.reserve(blocks);
+    for (std::size_t k = 0; k < blocks; ++k) sums.emplace_back(sea, columns, kind);
+    for_each_block(blocks, threads, [&](std::size_t block) {
+        for (std::size_t k = block * fan.size() / blocks; k < (block + 1) * fan.size() / blocks;
+             ++k)
+            sums[block].add(fan[k]);
+    });
+    for (std::size_t k = 1; k < blocks; ++k) sums[0].add(sums[k]);
+    return std::move(sums[0]);
+}
+
+/// A field with no values yet.
+Field empty_field(const Environment& environment, const FieldOptions& options) {
+    Field field;
+    field.depths = environment.receivers.depth_m.size();
+    field.ranges = environment.receivers.range_m.size();
+    const std::size_t cells = field.depths * field.ranges;
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    field.loss_db.assign(cells, none);
+    if (options.sum == Sum::coherent) field.pressure.assign(cells, {none, none});
+    return field;
+}
+
+/// Calls set(depth, its place in the field) for the depths of a column that lie in the water.
+template <class Set>
+void for_each_wet(const Field& field, const Environment& environment, const Columns& columns,
+                  std::size_t column, const Set& set) {
+    const std::size_t dry = field.ranges - columns.range_m().size();
+    const float surface_m = columns.surface_m(column), bottom_m = columns.bottom_m(column);
+    for (std::size_t k = 0; k < field.depths; ++k) {
+        const auto depth_m = static_cast<float>(environment.receivers.depth_m[k]);
+        if (depth_m >= surface_m && depth_m <= bottom_m) set(k, k * field.ranges + column + dry);
+    }
+}
+
+void fill(Field& field, const Environment& environment, const Columns& columns,
+          const IntensitySum& sum) {
+    std::vector<float> intensity(field.depths);
+    for (std::size_t column = 0; column < columns.range_m().size(); ++column) {
+        columns.at_receivers(column, sum.column(column), intensity.data());
+        for_each_wet(field, environment, columns, column, [&](std::size_t depth, std::size_t to) {
+            field.loss_db[to] = -10 * std::log10(intensity[depth]);
+        });
+    }
+}
+
+void fill(Field& field, const Environment& environment, const Columns& columns,
+          const PressureSum& sum) {
+    for (std::size_t column = 0; column < columns.range_m().size(); ++column)
+        for_each_wet(field, environment, columns, column, [&](std::size_t depth, std::size_t to) {
+            field.pressure[to] = sum.column(column)[depth];
+            field.loss_db[to] = -10 * std::log10(std::norm(field.pressure[to]));
+        });
 }
 
 }  // namespace
 
 Field ray_field(const Environment& environment, const FieldOptions& options) {
     check(environment);
-    Field field;
+    Field field = empty_field(environment, options);
     const RaySea sea = make_ray_sea(environment, field.basis.remarks);
-    const Columns columns(environment.receivers);
-    const auto& fan = environment.fan;
-    const std::uint32_t beams = fan.beams ? fan.beams : 2000;
-    const double step_deg = (fan.most_deg - fan.least_deg) / (beams - 1);
-    BeamKind kind{options.sum,
-                  options.beam,
-                  step_deg * rad_per_deg,
-                  options.least_amplitude,
-                  options.baffle_from_deg,
-                  options.baffle_to_deg};
-    BeamSum sum(sea, columns, kind);
-    for (std::uint32_t k = 0; k < beams; ++k) {
-        const double angle_deg = fan.least_deg + step_deg * k;
-        sum.add(angle_deg * rad_per_deg, level_at(environment.source.pattern, angle_deg));
-    }
-    field.depths = environment.receivers.depth_m.size();
-    field.ranges = environment.receivers.range_m.size();
-    field.basis.beams = beams;
-    field.loss_db.assign(field.depths * field.ranges, std::numeric_limits<float>::quiet_NaN());
-    const std::size_t skipped = field.ranges - columns.range_m.size();
-    for (std::size_t j = 0; j < columns.range_m.size(); ++j)
-        for (std::size_t i = 0; i < field.depths; ++i) {
-            const double z = environment.receivers.depth_m[i], r = columns.range_m[j];
-            if (z > sea.bottom.depth_at(r) || z < sea.surface.depth_at(r)) continue;
-            const std::size_t at = j * columns.stride + i;
-            const double intensity =
-                options.sum == Sum::coherent ? std::norm(sum.pressure()[at]) : sum.intensity()[at];
-            field.loss_db[i * field.ranges + j + skipped] =
-                static_cast<float>(-10 * std::log10(intensity));
-        }
+    const Columns columns(sea, environment.receivers, options);
+    const auto fan = make_fan(environment, sea, options);
+    const BeamKind kind = beam_kind(environment, options);
+    field.basis.beams = fan.size();
+    if (options.sum == Sum::coherent)
+        fill(field, environment, columns,
+             add_beams<PressureSum>(sea, columns, kind, fan, options.threads));
+    else
+        fill(field, environment, columns,
+             add_beams<IntensitySum>(sea, columns, kind, fan, options.threads));
     return field;
 }
 

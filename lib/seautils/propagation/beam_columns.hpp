@@ -1,0 +1,72 @@
+#ifndef SEAUTILS_PROPAGATION_BEAM_COLUMNS_HPP
+#define SEAUTILS_PROPAGATION_BEAM_COLUMNS_HPP
+
+#include "seautils/propagation/field.hpp"
+#include "seautils/propagation/ray_sea.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace seautils::propagation {
+
+/// Depths at which beams are added, in whole vectors of four: beyond `count` they only fill.
+class Depths {
+public:
+    /// @param depth_m  grows; 1 at least
+    explicit Depths(const std::vector<double>& depth_m);
+    /// `count` of them, evenly from `top_m`, at least 2.
+    Depths(float top_m, float step_m, std::size_t count);
+
+    std::size_t count() const { return count_; }
+    std::size_t stride() const { return depth_m_.size(); }
+    const float* data() const { return depth_m_.data(); }
+    float top_m() const { return depth_m_.front(); }
+    /// Number of depths above `depth_m`.
+    std::size_t above(float depth_m) const;
+
+private:
+    void make_bins();
+
+    std::vector<float> depth_m_;
+    std::size_t count_ = 0;
+    float per_bin_ = 0;
+    std::vector<std::uint32_t> bin_;
+};
+
+/// Receivers as beams meet them: columns, each with the depths at which beams are added there. Where no beam is narrow
+/// those are fewer than the receivers', and the loss in between is interpolated.
+class Columns {
+public:
+    /// @param receivers  ranges and depths grow
+    /// @param beam       where it is Gaussian, no narrower than least_width_m() tells
+    Columns(const RaySea& sea, const Receivers& receivers, const FieldOptions& options);
+
+    const std::vector<double>& range_m() const { return range_m_; }  ///< those above 0
+    const Depths& depths(std::size_t column) const { return depths_[grid_[column]]; }
+    std::size_t offset(std::size_t column) const { return offset_[column]; }
+    std::size_t cells() const { return cells_; }
+    float surface_m(std::size_t column) const { return surface_m_[column]; }
+    float bottom_m(std::size_t column) const { return bottom_m_[column]; }
+
+    /// The sums of a column at its receivers' depths.
+    void at_receivers(std::size_t column, const float* sums, float* out) const;
+
+private:
+    std::vector<double> range_m_;
+    std::vector<Depths> depths_;  ///< first the receivers' own
+    std::vector<std::uint32_t> grid_;
+    std::vector<std::size_t> offset_;
+    std::vector<float> surface_m_, bottom_m_;
+    std::size_t cells_ = 0;
+};
+
+/// A Gaussian beam is no narrower than this, spec §7: min(0.2 f τ, πλ).
+inline double least_width_m(const RaySea& sea, double path_m) {
+    return std::min(0.2 * sea.frequency_hz * path_m / sea.source_speed_mps,
+                    3.14159265358979 * sea.source_speed_mps / sea.frequency_hz);
+}
+
+}  // namespace seautils::propagation
+
+#endif  // SEAUTILS_PROPAGATION_BEAM_COLUMNS_HPP

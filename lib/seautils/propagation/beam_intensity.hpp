@@ -1,0 +1,54 @@
+#ifndef SEAUTILS_PROPAGATION_BEAM_INTENSITY_HPP
+#define SEAUTILS_PROPAGATION_BEAM_INTENSITY_HPP
+
+#include "seautils/propagation/beam_columns.hpp"
+#include "seautils/propagation/beam_kind.hpp"
+#include "seautils/propagation/ray_beam.hpp"
+
+#include <array>
+#include <vector>
+
+namespace seautils::propagation {
+
+/// Where beams meet columns, many at a time.
+struct Spots {
+    static constexpr std::size_t most = 256;
+    using Floats = std::array<float, most>;
+    std::size_t count = 0;
+    std::array<std::uint32_t, most> column;
+    // What they are made of: the arc up to the column, speed at its beginning, and what the ray has gathered.
+    Floats cosine, sine, turn, along_m, depth_m, speed_mps, gradient, width_m, least_m, energy;
+    // What follows: the kernel over depth, and how far it reaches.
+    Floats height, steepness, half_m;
+};
+
+/// Sums intensities of beams over columns, spec §7: the energy of a beam spread over a kernel of unit area, in floats.
+class IntensitySum {
+public:
+    IntensitySum(const RaySea& sea, const Columns& columns, const BeamKind& kind);
+
+    /// Traces the ray of an angle and adds its beam.
+    void add(const Launch& launch);
+    void add(const IntensitySum& other);
+    /// Intensity re 1 m, at depths of a column as Columns has them.
+    const float* column(std::size_t column) const { return sum_.data() + columns_.offset(column); }
+
+private:
+    void meet(const Leg& leg, const EnergyState& state, std::size_t column);
+    void flush();
+    void shape();
+    void spread(std::size_t spot);
+    void spread(std::uint32_t column, float depth_m, float half_m, float steepness, float height);
+
+    const RaySea& sea_;
+    const Columns& columns_;
+    BeamKind kind_;
+    BeamWalk walk_;
+    Spots spots_{};
+    double energy_ = 0, width_per_q_ = 0;  // of the ray under way
+    std::vector<float> sum_;
+};
+
+}  // namespace seautils::propagation
+
+#endif  // SEAUTILS_PROPAGATION_BEAM_INTENSITY_HPP

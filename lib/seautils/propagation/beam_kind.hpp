@@ -1,0 +1,29 @@
+#ifndef SEAUTILS_PROPAGATION_BEAM_KIND_HPP
+#define SEAUTILS_PROPAGATION_BEAM_KIND_HPP
+
+#include "seautils/propagation/field.hpp"
+
+namespace seautils::propagation {
+
+/// What beams are added, and how.
+struct BeamKind {
+    Sum sum = Sum::incoherent;
+    Beam beam = Beam::gaussian;
+    double least_amplitude = 0;
+    double baffle_from_sine = 0, baffle_to_sine = 0;  ///< of elevation; equal: none
+    /// A Gaussian beam's width over the distance between neighbours.
+    double width_factor = 1;
+    /// What of a beam wider than least_width_m() would lie outside the water is mirrored into it.
+    bool mirrored = false;
+};
+
+/// One beam of a fan.
+struct Launch {
+    double angle_rad = 0;
+    double spacing_rad = 0;  ///< share of the fan
+    double level = 1;        ///< amplitude of the source in that direction
+};
+
+}  // namespace seautils::propagation
+
+#endif  // SEAUTILS_PROPAGATION_BEAM_KIND_HPP

@@ -1,0 +1,95 @@
+#include "seautils/propagation/beam_pressure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace seautils::propagation {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double gaussian_reach = 4;  // in widths
+
+}  // namespace
+
+/// Where a beam meets a column: its kernel over depth.
+struct PressureSum::Spot {
+    double depth_m = 0, half_m = 0;
+    double steepness = 0, height = 0;
+    double phase_rad = 0, phase_per_m = 0;
+};
+
+PressureSum::PressureSum(const RaySea& sea, const Columns& columns, const BeamKind& kind)
+    : sea_(sea), columns_(columns), kind_(kind), walk_(sea), sum_(columns.cells()) {}
+
+void PressureSum::add(const Launch& launch) {
+    const auto& ranges = columns_.range_m();
+    if (ranges.empty() || launch.level == 0) return;
+    launch_ = launch;
+    std::size_t column = 0;
+    walk_.run<BeamState>(launch.angle_rad, ranges.back(), kind_.least_amplitude,
+                         [&](const Leg& leg, const BeamState& state) {
+                             const double end_m = state.range_m + leg.whole.along_m;
+                             while (column < ranges.size() && ranges[column] <= end_m)
+                                 meet(leg, state, column++);
+                             while (column > 0 && ranges[column - 1] > end_m)
+                                 meet(leg, state, --column);
+                             return true;
+                         });
+}
+
+void PressureSum::meet(const Leg& leg, const BeamState& state, std::size_t column) {
+    const double range_m = columns_.range_m()[column];
+    const Advance at = leg.part(range_m - state.range_m);
+    if (kind_.baffle_from_sine < kind_.baffle_to_sine && at.sine >= kind_.baffle_from_sine &&
+        at.sine <= kind_.baffle_to_sine)
+        return;
+    const double q = state.q + state.p * at.spread;
+    const double speed_mps =
+        leg.speed_mps + leg.range_gradient * at.along_m + leg.depth_gradient * at.down_m;
+    if (!(std::abs(q) < 1e15) || q == 0) return;
+    const bool hat = kind_.beam == Beam::hat;
+    const double length_m = state.length_m + at.length_m;
+    const double between_m = std::abs(q) * launch_.spacing_rad / sea_.source_speed_mps;
+    const double width_m =
+        hat ? between_m : std::max(kind_.width_factor * between_m, least_width_m(sea_, length_m));
+    const double across = std::max(std::abs(at.cosine), 1e-5);
+    const bool caustic = (state.q > 0 && q < 0) || (state.q < 0 && q > 0);
+    const double omega = 2 * pi * sea_.frequency_hz;
+    Spot spot;
+    spot.depth_m = leg.depth_m + at.down_m;
+    spot.half_m = (hat ? 1 : gaussian_reach) * width_m / across;
+    spot.steepness = across / width_m;
+    spot.height = launch_.level * state.amplitude * std::exp(-sea_.absorption_np_per_m * length_m) *
+                  std::sqrt(std::abs(std::cos(launch_.angle_rad)) / (hat ? 1 : 2 * pi) * speed_mps /
+                            (std::abs(q) * range_m)) *
+                  between_m / width_m;
+    spot.phase_rad = state.phase_rad + 0.5 * pi * (state.caustics + (caustic ? 1 : 0)) -
+                     omega * (state.delay_s + at.delay_s);
+    spot.phase_per_m = -omega * at.sine / speed_mps;
+    spread(spot, column);
+}
+
+void PressureSum::spread(const Spot& spot, std::size_t column) {
+    const Depths& depths = columns_.depths(column);
+    const std::size_t from = depths.above(static_cast<float>(spot.depth_m - spot.half_m));
+    const std::size_t to = depths.above(static_cast<float>(spot.depth_m + spot.half_m));
+    auto* out = sum_.data() + columns_.offset(column);
+    const bool hat = kind_.beam == Beam::hat;
+    for (std::size_t k = from; k < to; ++k) {
+        const double down_m = depths.data()[k] - spot.depth_m;
+        const double n = down_m * spot.steepness;
+        const double size =
+            spot.height * (hat ? std::max(0., 1 - std::abs(n)) : std::exp(-0.5 * n * n));
+        const double phase = spot.phase_rad + spot.phase_per_m * down_m;
+        out[k] += std::complex<float>(static_cast<float>(size * std::cos(phase)),
+                                      static_cast<float>(size * std::sin(phase)));
+    }
+}
+
+void PressureSum::add(const PressureSum& other) {
+    for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += other.sum_[k];
+}
+
+}  // namespace seautils::propagation

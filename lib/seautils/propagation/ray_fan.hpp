@@ -1,0 +1,27 @@
+#ifndef SEAUTILS_PROPAGATION_RAY_FAN_HPP
+#define SEAUTILS_PROPAGATION_RAY_FAN_HPP
+
+#include "seautils/propagation/beam_kind.hpp"
+#include "seautils/propagation/ray_sea.hpp"
+
+#include <vector>
+
+namespace seautils::propagation {
+
+/// No more beams than this are chosen.
+inline constexpr std::uint32_t most_automatic_beams = 100'000;
+
+/// Amplitude of a source in a direction: linear between its points; 1 without any.
+double level_at(const std::vector<PatternPoint>& pattern, double angle_deg);
+
+/// The environment's fan: as many beams as it says, equally spaced from end to end; else as many as the sum needs,
+/// densest where they are flat.
+std::vector<Launch> make_fan(const Environment& environment, const RaySea& sea,
+                             const FieldOptions& options);
+
+/// How the beams of that fan are added.
+BeamKind beam_kind(const Environment& environment, const FieldOptions& options);
+
+}  // namespace seautils::propagation
+
+#endif  // SEAUTILS_PROPAGATION_RAY_FAN_HPP
