@@ -16,10 +16,11 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 
-/// Wavenumber of a lossy medium where time goes as exp(+iωt): its imaginary part is below 0.
+/// Wavenumber of a lossy medium where time goes as exp(+iωt): its imaginary part is below 0. It is the speed that is
+/// complex, as in the Acoustics Toolbox: ω/k is linear in the loss.
 Complex wavenumber(double omega, double speed_mps, double db_per_wavelength) {
     const double loss = db_per_wavelength / (2 * pi * db_per_neper);
-    return omega / speed_mps * Complex(1, -loss);
+    return omega / (speed_mps * Complex(1, loss));
 }
 
 /// Decays away from the boundary; without loss the limit of little.
