@@ -4,9 +4,11 @@ seautils_module(NAME propagation
     beam_columns.cpp
     beam_intensity.cpp
     beam_pressure.cpp
+    eigenrays.cpp
     engine.cpp
     environment.cpp
     modes.cpp
+    ray_arrivals.cpp
     ray_beam.cpp
     ray_fan.cpp
     ray_layers.cpp

@@ -1,6 +1,5 @@
 #include "seautils/propagation/rays.hpp"
 
-#include "seautils/core/error.hpp"
 #include "seautils/propagation/beam_intensity.hpp"
 #include "seautils/propagation/beam_pressure.hpp"
 #include "seautils/propagation/ray_fan.hpp"
@@ -121,10 +120,6 @@ Field ray_field(const Environment& environment, const FieldOptions& options) {
         fill(field, environment, columns,
              add_beams<IntensitySum>(sea, columns, kind, fan, options.threads));
     return field;
-}
-
-std::vector<ReceiverArrivals> ray_arrivals(const Environment&, const FieldOptions&) {
-    throw DataError("not there yet");
 }
 
 }  // namespace seautils::propagation

@@ -1,0 +1,120 @@
+#include "seautils/propagation/eigenrays.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seautils::propagation {
+namespace {
+
+/// The ray where a leg has come to a range.
+Probe probe_on(const Leg& leg, const BeamState& state, double launch_rad, double range_m) {
+    const Advance at = leg.part(range_m - state.range_m);
+    Probe probe;
+    probe.launch_rad = launch_rad;
+    probe.reached = true;
+    probe.depth_m = leg.depth_m + at.down_m;
+    probe.sine = at.sine;
+    probe.cosine = at.cosine;
+    probe.speed_mps =
+        leg.speed_mps + leg.range_gradient * at.along_m + leg.depth_gradient * at.down_m;
+    probe.state = state;
+    const double q = state.q + state.p * at.spread;
+    if ((state.q > 0 && q <= 0) || (state.q < 0 && q >= 0)) ++probe.state.caustics;
+    probe.state.q = q;
+    probe.state.range_m = range_m;
+    probe.state.delay_s += at.delay_s;
+    probe.state.length_m += at.length_m;
+    return probe;
+}
+
+}  // namespace
+
+EigenraySearch::EigenraySearch(const RaySea& sea, const std::vector<double>& depth_m,
+                               double least_amplitude)
+    : sea_(sea), depth_m_(depth_m), least_amplitude_(least_amplitude), walk_(sea) {}
+
+std::vector<Probe> EigenraySearch::trace(double launch_rad, const std::vector<double>& range_m) {
+    std::vector<Probe> out(range_m.size());
+    std::size_t next = 0;
+    walk_.run<BeamState>(launch_rad, range_m.back(), least_amplitude_,
+                         [&](const Leg& leg, const BeamState& state) {
+                             const double end_m = state.range_m + leg.whole.along_m;
+                             for (; next < range_m.size() && range_m[next] <= end_m; ++next)
+                                 out[next] = probe_on(leg, state, launch_rad, range_m[next]);
+                             return next < range_m.size();
+                         });
+    for (; next < range_m.size(); ++next) out[next].launch_rad = launch_rad;
+    return out;
+}
+
+Probe EigenraySearch::probe(double launch_rad, double range_m) {
+    Probe out;
+    out.launch_rad = launch_rad;
+    walk_.run<BeamState>(launch_rad, range_m, least_amplitude_,
+                         [&](const Leg& leg, const BeamState& state) {
+                             if (state.range_m + leg.whole.along_m < range_m) return true;
+                             out = probe_on(leg, state, launch_rad, range_m);
+                             return false;
+                         });
+    return out;
+}
+
+/// The same bounces, q of one sign, and the step in depth that q lets expect.
+bool EigenraySearch::runs_one_way(const Probe& a, const Probe& b) const {
+    if (!a.same_history(b) || (a.state.q > 0) != (b.state.q > 0)) return false;
+    const double expected_m =
+        0.5 * (a.metres_per_rad(sea_.source_speed_mps) + b.metres_per_rad(sea_.source_speed_mps)) *
+        (b.launch_rad - a.launch_rad);
+    const double step_m = std::abs(b.depth_m - a.depth_m);
+    return step_m > 0.6 * expected_m && step_m < 1.6 * expected_m;
+}
+
+/// Depths between two rays reach no farther than their steepest change allows, with something to spare.
+bool EigenraySearch::may_hold_depth(const Probe& a, const Probe& b) const {
+    if (!a.reached || !b.reached) return a.reached || b.reached;
+    const double slack_m =
+        2 * (b.launch_rad - a.launch_rad) *
+        std::max(a.metres_per_rad(sea_.source_speed_mps), b.metres_per_rad(sea_.source_speed_mps));
+    const double least_m = std::min(a.depth_m, b.depth_m) - slack_m;
+    const double most_m = std::max(a.depth_m, b.depth_m) + slack_m;
+    const auto first = std::lower_bound(depth_m_.begin(), depth_m_.end(), least_m);
+    return first != depth_m_.end() && *first <= most_m;
+}
+
+void EigenraySearch::split(const Probe& a, const Probe& b, double range_m, int halvings) {
+    if (!may_hold_depth(a, b)) return;
+    if (halvings > 0 && !runs_one_way(a, b)) {
+        const Probe middle = probe(0.5 * (a.launch_rad + b.launch_rad), range_m);
+        split(a, middle, range_m, halvings - 1);
+        split(middle, b, range_m, halvings - 1);
+        return;
+    }
+    if (!a.same_history(b)) return;
+    const double least_m = std::min(a.depth_m, b.depth_m), most_m = std::max(a.depth_m, b.depth_m);
+    auto depth = std::lower_bound(depth_m_.begin(), depth_m_.end(), least_m);
+    for (; depth != depth_m_.end() && *depth <= most_m; ++depth)
+        if (*depth != b.depth_m)  // that is met in the next interval
+            brackets_.push_back({a, b, static_cast<std::size_t>(depth - depth_m_.begin())});
+}
+
+/// Newton's method, kept inside the bracket.
+Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
+    const double depth_m = depth_m_[bracket.depth];
+    double from = bracket.a.launch_rad, to = bracket.b.launch_rad;
+    const double way = bracket.b.depth_m > bracket.a.depth_m ? 1 : -1;
+    const double part = (depth_m - bracket.a.depth_m) / (bracket.b.depth_m - bracket.a.depth_m);
+    double launch_rad = from + (to - from) * part;
+    Probe at;
+    for (int k = 0; k < 40; ++k) {
+        at = probe(launch_rad, range_m);
+        const double short_m = way * (depth_m - at.depth_m);
+        if (!at.reached || std::abs(short_m) < 1e-7) break;
+        (short_m > 0 ? from : to) = launch_rad;
+        launch_rad += short_m / at.metres_per_rad(sea_.source_speed_mps);
+        if (!(launch_rad > from && launch_rad < to)) launch_rad = 0.5 * (from + to);
+        if (to - from < 1e-15) break;
+    }
+    return at;
+}
+
+}  // namespace seautils::propagation

@@ -1,0 +1,67 @@
+#ifndef SEAUTILS_PROPAGATION_EIGENRAYS_HPP
+#define SEAUTILS_PROPAGATION_EIGENRAYS_HPP
+
+#include "seautils/propagation/beam_kind.hpp"
+#include "seautils/propagation/ray_beam.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace seautils::propagation {
+
+/// A ray where it first comes to a range.
+struct Probe {
+    double launch_rad = 0;
+    bool reached = false;
+    double depth_m = 0, sine = 0, cosine = 1, speed_mps = 0;
+    BeamState state;
+
+    bool same_history(const Probe& other) const {
+        return reached && other.reached && state.surface_bounces == other.state.surface_bounces &&
+               state.bottom_bounces == other.state.bottom_bounces;
+    }
+    /// |dz/dα| at the range.
+    double metres_per_rad(double source_speed_mps) const {
+        return std::abs(state.q) / (source_speed_mps * std::max(std::abs(cosine), 1e-3));
+    }
+};
+
+/// Finds the rays that meet given depths at a range: between neighbours of a fan that have the same bounces behind them
+/// and no caustic between them depth runs one way; other intervals are halved, where a receiver may lie in them.
+class EigenraySearch {
+public:
+    /// @param depth_m  grows
+    EigenraySearch(const RaySea& sea, const std::vector<double>& depth_m, double least_amplitude);
+
+    /// The ray of an angle at each of some ranges (which grow).
+    std::vector<Probe> trace(double launch_rad, const std::vector<double>& range_m);
+    /// Calls found(depth's index, ray) for each ray between two neighbours that meets a depth, to 1e-7 m.
+    template <class Found>
+    void between(const Probe& a, const Probe& b, double range_m, Found&& found) {
+        brackets_.clear();
+        split(a, b, range_m, most_halvings);
+        for (const auto& bracket : brackets_) found(bracket.depth, refine(bracket, range_m));
+    }
+
+private:
+    static constexpr int most_halvings = 22;
+    struct Bracket {
+        Probe a, b;
+        std::size_t depth;
+    };
+    void split(const Probe& a, const Probe& b, double range_m, int halvings);
+    bool runs_one_way(const Probe& a, const Probe& b) const;
+    bool may_hold_depth(const Probe& a, const Probe& b) const;
+    Probe refine(const Bracket& bracket, double range_m);
+    Probe probe(double launch_rad, double range_m);
+
+    const RaySea& sea_;
+    const std::vector<double>& depth_m_;
+    double least_amplitude_;
+    BeamWalk walk_;
+    std::vector<Bracket> brackets_;
+};
+
+}  // namespace seautils::propagation
+
+#endif  // SEAUTILS_PROPAGATION_EIGENRAYS_HPP
