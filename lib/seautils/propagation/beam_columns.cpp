@@ -25,24 +25,22 @@ Depths::Depths(float top_m, float step_m, std::size_t count) : count_(count) {
     make_bins();
 }
 
-/// Twice as many bins as depths, each with the number of depths above it: a depth is found in a step or two.
+/// A bin begins with the number of depths above it: first one for all that lies above the top, then as many as there are
+/// depths, and one for all that lies below.
 void Depths::make_bins() {
     const float span_m = depth_m_[count_ - 1] - depth_m_[0];
-    const std::size_t bins = 2 * count_;
-    per_bin_ = span_m > 0 ? static_cast<float>(bins) / span_m : 0;
+    const std::size_t bins = count_;
+    per_bin_ = span_m > 0 ? static_cast<float>(bins) / span_m : 1;
+    bin_.push_back(0);
     for (std::size_t k = 0, at = 0; k <= bins; ++k) {
-        while (at < count_ && (depth_m_[at] - depth_m_[0]) * per_bin_ < static_cast<float>(k)) ++at;
+        while (at < count_ &&
+               (depth_m_[at] - depth_m_[0]) * per_bin_ < static_cast<float>(k) - 0.01F)
+            ++at;
         bin_.push_back(static_cast<std::uint32_t>(at));
     }
-}
-
-std::size_t Depths::above(float depth_m) const {
-    if (depth_m <= depth_m_[0]) return 0;
-    const float bin = (depth_m - depth_m_[0]) * per_bin_;
-    if (!(bin < static_cast<float>(bin_.size() - 1)) || per_bin_ == 0) return count_;
-    std::size_t at = bin_[static_cast<std::size_t>(bin)];
-    while (at < count_ && depth_m_[at] < depth_m) ++at;
-    return at;
+    last_bin_ = static_cast<float>(bin_.size() - 1);
+    bin_.push_back(static_cast<std::uint32_t>(count_));
+    bin_.push_back(static_cast<std::uint32_t>(count_));
 }
 
 Columns::Columns(const RaySea& sea, const Receivers& receivers, const FieldOptions& options) {

@@ -4,6 +4,7 @@
 #include "seautils/propagation/field.hpp"
 #include "seautils/propagation/ray_sea.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -22,15 +23,24 @@ public:
     std::size_t stride() const { return depth_m_.size(); }
     const float* data() const { return depth_m_.data(); }
     float top_m() const { return depth_m_.front(); }
-    /// Number of depths above `depth_m`.
-    std::size_t above(float depth_m) const;
+    /// From `from` up to but not `to`: all depths within [least_m, most_m], and few others.
+    struct Run {
+        std::size_t from, to;
+    };
+    Run run(float least_m, float most_m) const {
+        return {bin_[bin(least_m)], bin_[bin(most_m) + 1]};
+    }
 
 private:
     void make_bins();
+    std::size_t bin(float depth_m) const {
+        const float place = std::max((depth_m - depth_m_.front()) * per_bin_ + 1.F, 0.F);
+        return static_cast<std::size_t>(std::min(place, last_bin_));
+    }
 
     std::vector<float> depth_m_;
     std::size_t count_ = 0;
-    float per_bin_ = 0;
+    float per_bin_ = 0, last_bin_ = 0;
     std::vector<std::uint32_t> bin_;
 };
 

@@ -13,6 +13,10 @@ namespace {
 using std::numbers::pi;
 
 constexpr float gaussian_reach = 4;  // in widths
+/// A narrow beam is a hat as wide as its neighbour is far, from this many least widths on: there a hat is as wide, rms,
+/// as a Gaussian of the least width.
+constexpr float hat_from = 2.2F;
+constexpr float hat_rms = 0.45F;
 
 /// 2^x for x in -126 to 0, to 1e-5.
 inline float power_of_two(float x) {
@@ -39,7 +43,12 @@ void add_kernel(const float* depth_m, float* out, std::size_t from, std::size_t 
 }  // namespace
 
 IntensitySum::IntensitySum(const RaySea& sea, const Columns& columns, const BeamKind& kind)
-    : sea_(sea), columns_(columns), kind_(kind), walk_(sea), sum_(columns.cells()) {}
+    : sea_(sea),
+      columns_(columns),
+      kind_(kind),
+      walk_(sea),
+      least_of_kind_(kind.beam == Beam::hat ? 0.F : 1.F),
+      sum_(columns.cells()) {}
 
 void IntensitySum::add(const Launch& launch) {
     const auto& ranges = columns_.range_m();
@@ -48,11 +57,9 @@ void IntensitySum::add(const Launch& launch) {
     if (kind_.sum == Sum::semi_coherent)
         level *= std::numbers::sqrt2 * std::sin(2 * pi * sea_.frequency_hz * sea_.source_depth_m *
                                                 std::sin(launch.angle_rad) / sea_.source_speed_mps);
-    const double area = kind_.beam == Beam::hat ? 1 : std::sqrt(2 * pi);
     energy_ = level * level * std::abs(std::cos(launch.angle_rad)) * launch.spacing_rad /
-              (sea_.source_speed_mps * area);
-    width_per_q_ = launch.spacing_rad / sea_.source_speed_mps *
-                   (kind_.beam == Beam::hat ? 1 : kind_.width_factor);
+              sea_.source_speed_mps;
+    width_per_q_ = launch.spacing_rad / sea_.source_speed_mps;
     std::size_t column = 0;
     double next_m = ranges[0], last_m = 0;
     walk_.run<EnergyState>(launch.angle_rad, ranges.back(), kind_.least_amplitude,
@@ -88,7 +95,8 @@ void IntensitySum::meet(const Leg& leg, const EnergyState& state, std::size_t co
     spots_.speed_mps[k] = static_cast<float>(leg.speed_mps + leg.range_gradient * along_m);
     spots_.gradient[k] = static_cast<float>(leg.depth_gradient);
     spots_.width_m[k] = static_cast<float>(width_per_q_ * q);
-    spots_.least_m[k] = static_cast<float>(least_width_m(sea_, state.length_m + path_m));
+    spots_.least_m[k] =
+        least_of_kind_ * static_cast<float>(least_width_m(sea_, state.length_m + path_m));
     spots_.energy[k] =
         static_cast<float>(energy_ * state.amplitude * state.amplitude * fade / range_m);
     if (spots_.count == Spots::most) flush();
@@ -97,21 +105,25 @@ void IntensitySum::meet(const Leg& leg, const EnergyState& state, std::size_t co
 /// From arcs to kernels.
 void IntensitySum::shape() {
     Spots& s = spots_;
-    const bool is_hat = kind_.beam == Beam::hat;
-    const float reach = is_hat ? 1.F : gaussian_reach;
-    const float narrow = is_hat ? 1.F : 0.84932180F;  // √(log2(e)/2): exp(-n²/2) as a power of two
-    const float least = is_hat ? 0.F : 1.F;
+    const float hat_over = kind_.beam == Beam::hat ? 0.F : kind_.mirrored ? hat_from : 1e9F;
+    const float narrow = 0.84932180F;  // √(log2(e)/2): exp(-n²/2) as a power of two
+    const float area = 0.39894228F;    // 1/√(2π)
+    const float factor = static_cast<float>(kind_.width_factor);
     for (std::size_t k = 0; k < (s.count + 3) / 4 * 4; ++k) {
         const float sine = s.sine[k] + s.turn[k];
         const float cosine = std::sqrt(std::max(1.F - sine * sine, 1e-10F));
         const float down_m = s.along_m[k] * (s.sine[k] + sine) / (s.cosine[k] + cosine);
-        const float width_m = std::max(s.width_m[k], std::max(least * s.least_m[k], 1e-6F));
+        const bool hat = s.width_m[k] > hat_over * s.least_m[k];
+        const float gaussian_m = std::max(factor * s.width_m[k], s.least_m[k]);
+        const float width_m = std::max(hat ? s.width_m[k] : gaussian_m, 1e-6F);
         s.depth_m[k] += down_m;
         s.sine[k] = sine;
-        s.height[k] = s.energy[k] * (s.speed_mps[k] + s.gradient[k] * down_m) / width_m;
-        s.steepness[k] = narrow * cosine / width_m;
-        s.half_m[k] = reach * width_m / cosine;
-        s.width_m[k] = width_m;
+        s.height[k] =
+            s.energy[k] * (s.speed_mps[k] + s.gradient[k] * down_m) / width_m * (hat ? 1.F : area);
+        s.steepness[k] = (hat ? 1.F : narrow) * cosine / width_m;
+        s.half_m[k] = (hat ? 1.F : gaussian_reach) * width_m / cosine;
+        s.mirrored[k] = hat ? 1.F - s.least_m[k] / (hat_rms * width_m) : 0.F;
+        s.hat[k] = hat;
     }
 }
 
@@ -129,28 +141,25 @@ void IntensitySum::flush() {
 
 void IntensitySum::spread(std::size_t k) {
     const Spots& s = spots_;
-    const std::uint32_t column = s.column[k];
-    spread(column, s.depth_m[k], s.half_m[k], s.steepness[k], s.height[k]);
-    if (!kind_.mirrored || s.width_m[k] <= s.least_m[k]) return;
-    const float share = kind_.beam == Beam::hat ? 1 : 1 - s.least_m[k] / s.width_m[k];
-    const float surface_m = columns_.surface_m(column), bottom_m = columns_.bottom_m(column);
+    spread(k, s.depth_m[k], s.height[k]);
+    if (!kind_.mirrored || s.mirrored[k] <= 0) return;
+    const float surface_m = columns_.surface_m(s.column[k]);
+    const float bottom_m = columns_.bottom_m(s.column[k]);
     if (s.depth_m[k] - s.half_m[k] < surface_m)
-        spread(column, 2 * surface_m - s.depth_m[k], s.half_m[k], s.steepness[k],
-               share * s.height[k]);
+        spread(k, 2 * surface_m - s.depth_m[k], s.mirrored[k] * s.height[k]);
     if (s.depth_m[k] + s.half_m[k] > bottom_m)
-        spread(column, 2 * bottom_m - s.depth_m[k], s.half_m[k], s.steepness[k],
-               share * s.height[k]);
+        spread(k, 2 * bottom_m - s.depth_m[k], s.mirrored[k] * s.height[k]);
 }
 
-void IntensitySum::spread(std::uint32_t column, float depth_m, float half_m, float steepness,
-                          float height) {
-    const Depths& depths = columns_.depths(column);
-    const std::size_t from = depths.above(depth_m - half_m), to = depths.above(depth_m + half_m);
-    float* out = sum_.data() + columns_.offset(column);
-    if (kind_.beam == Beam::hat)
-        add_kernel<hat>(depths.data(), out, from, to, depth_m, steepness, height);
+void IntensitySum::spread(std::size_t k, float depth_m, float height) {
+    const Spots& s = spots_;
+    const Depths& depths = columns_.depths(s.column[k]);
+    const auto [from, to] = depths.run(depth_m - s.half_m[k], depth_m + s.half_m[k]);
+    float* out = sum_.data() + columns_.offset(s.column[k]);
+    if (s.hat[k])
+        add_kernel<hat>(depths.data(), out, from, to, depth_m, s.steepness[k], height);
     else
-        add_kernel<gaussian>(depths.data(), out, from, to, depth_m, steepness, height);
+        add_kernel<gaussian>(depths.data(), out, from, to, depth_m, s.steepness[k], height);
 }
 
 void IntensitySum::add(const IntensitySum& other) {

@@ -19,7 +19,8 @@ struct Spots {
     // What they are made of: the arc up to the column, speed at its beginning, and what the ray has gathered.
     Floats cosine, sine, turn, along_m, depth_m, speed_mps, gradient, width_m, least_m, energy;
     // What follows: the kernel over depth, and how far it reaches.
-    Floats height, steepness, half_m;
+    Floats height, steepness, half_m, mirrored;
+    std::array<std::uint8_t, most> hat;
 };
 
 /// Sums intensities of beams over columns, spec §7: the energy of a beam spread over a kernel of unit area, in floats.
@@ -38,7 +39,7 @@ private:
     void flush();
     void shape();
     void spread(std::size_t spot);
-    void spread(std::uint32_t column, float depth_m, float half_m, float steepness, float height);
+    void spread(std::size_t spot, float depth_m, float height);
 
     const RaySea& sea_;
     const Columns& columns_;
@@ -46,6 +47,7 @@ private:
     BeamWalk walk_;
     Spots spots_{};
     double energy_ = 0, width_per_q_ = 0;  // of the ray under way
+    float least_of_kind_;                  // 0: beams may be as narrow as they will
     std::vector<float> sum_;
 };
 

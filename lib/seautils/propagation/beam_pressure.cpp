@@ -73,13 +73,15 @@ void PressureSum::meet(const Leg& leg, const BeamState& state, std::size_t colum
 
 void PressureSum::spread(const Spot& spot, std::size_t column) {
     const Depths& depths = columns_.depths(column);
-    const std::size_t from = depths.above(static_cast<float>(spot.depth_m - spot.half_m));
-    const std::size_t to = depths.above(static_cast<float>(spot.depth_m + spot.half_m));
+    const auto [from, to] = depths.run(static_cast<float>(spot.depth_m - spot.half_m),
+                                       static_cast<float>(spot.depth_m + spot.half_m));
     auto* out = sum_.data() + columns_.offset(column);
     const bool hat = kind_.beam == Beam::hat;
+    const double reach = hat ? 1 : gaussian_reach;
     for (std::size_t k = from; k < to; ++k) {
         const double down_m = depths.data()[k] - spot.depth_m;
         const double n = down_m * spot.steepness;
+        if (std::abs(n) > reach) continue;
         const double size =
             spot.height * (hat ? std::max(0., 1 - std::abs(n)) : std::exp(-0.5 * n * n));
         const double phase = spot.phase_rad + spot.phase_per_m * down_m;
