@@ -10,11 +10,24 @@ constexpr std::size_t lanes = 4;
 /// a beam's axis, and better near it.
 constexpr double steps_per_width = 3;
 
+/// Even to a hundred thousandth of the step.
+double even_step_m(const std::vector<double>& depth_m) {
+    if (depth_m.size() < 2) return 0;
+    const double step_m =
+        (depth_m.back() - depth_m.front()) / static_cast<double>(depth_m.size() - 1);
+    for (std::size_t k = 0; k < depth_m.size(); ++k)
+        if (std::abs(depth_m[k] - depth_m.front() - step_m * static_cast<double>(k)) >
+            1e-5 * step_m)
+            return 0;
+    return step_m;
+}
+
 }  // namespace
 
 Depths::Depths(const std::vector<double>& depth_m) : count_(depth_m.size()) {
     depth_m_.assign(depth_m.begin(), depth_m.end());
     depth_m_.resize((count_ + lanes - 1) / lanes * lanes, depth_m_.back());
+    step_m_ = even_step_m(depth_m);
     make_bins();
 }
 

@@ -23,6 +23,8 @@ public:
     std::size_t stride() const { return depth_m_.size(); }
     const float* data() const { return depth_m_.data(); }
     float top_m() const { return depth_m_.front(); }
+    /// Between neighbours; 0 where they are not even.
+    double step_m() const { return step_m_; }
     /// From `from` up to but not `to`: all depths within [least_m, most_m], and few others.
     struct Run {
         std::size_t from, to;
@@ -40,6 +42,7 @@ private:
 
     std::vector<float> depth_m_;
     std::size_t count_ = 0;
+    double step_m_ = 0;
     float per_bin_ = 0, last_bin_ = 0;
     std::vector<std::uint32_t> bin_;
 };

@@ -11,6 +11,19 @@ using std::numbers::pi;
 
 constexpr double gaussian_reach = 4;  // in widths
 
+struct Turning {
+    double re, im;
+    void operator*=(const Turning& by) {
+        const double real = re * by.re - im * by.im;
+        im = re * by.im + im * by.re;
+        re = real;
+    }
+};
+
+Turning turning(double size, double phase_rad) {
+    return {size * std::cos(phase_rad), size * std::sin(phase_rad)};
+}
+
 }  // namespace
 
 /// Where a beam meets a column: its kernel over depth.
@@ -19,6 +32,26 @@ struct PressureSum::Spot {
     double steepness = 0, height = 0;
     double phase_rad = 0, phase_per_m = 0;
 };
+
+/// At even depths from the first, n widths off the ray: the exponent of a Gaussian beam is quadratic in depth, so that each
+/// value follows from the last by two products.
+void PressureSum::add_evenly(const Spot& spot, bool hat, double n, double depth_m, double step_m,
+                             std::complex<float>* out, const std::complex<float>* end) {
+    const double step = step_m * spot.steepness;
+    const double square = hat ? 0 : 1;
+    auto value = turning(spot.height * std::exp(-0.5 * square * n * n),
+                         spot.phase_rad + spot.phase_per_m * (depth_m - spot.depth_m));
+    auto ratio = turning(std::exp(-square * step * (n + 0.5 * step)), spot.phase_per_m * step_m);
+    const double bend = std::exp(-square * step * step);
+    for (; out != end; ++out, n += step) {
+        const double weight = hat ? std::max(0., 1 - std::abs(n)) : 1;
+        *out += std::complex<float>(static_cast<float>(weight * value.re),
+                                    static_cast<float>(weight * value.im));
+        value *= ratio;
+        ratio.re *= bend;
+        ratio.im *= bend;
+    }
+}
 
 PressureSum::PressureSum(const RaySea& sea, const Columns& columns, const BeamKind& kind)
     : sea_(sea), columns_(columns), kind_(kind), walk_(sea), sum_(columns.cells()) {}
@@ -73,21 +106,22 @@ void PressureSum::meet(const Leg& leg, const BeamState& state, std::size_t colum
 
 void PressureSum::spread(const Spot& spot, std::size_t column) {
     const Depths& depths = columns_.depths(column);
-    const auto [from, to] = depths.run(static_cast<float>(spot.depth_m - spot.half_m),
-                                       static_cast<float>(spot.depth_m + spot.half_m));
-    auto* out = sum_.data() + columns_.offset(column);
     const bool hat = kind_.beam == Beam::hat;
     const double reach = hat ? 1 : gaussian_reach;
-    for (std::size_t k = from; k < to; ++k) {
-        const double down_m = depths.data()[k] - spot.depth_m;
-        const double n = down_m * spot.steepness;
-        if (std::abs(n) > reach) continue;
-        const double size =
-            spot.height * (hat ? std::max(0., 1 - std::abs(n)) : std::exp(-0.5 * n * n));
-        const double phase = spot.phase_rad + spot.phase_per_m * down_m;
-        out[k] += std::complex<float>(static_cast<float>(size * std::cos(phase)),
-                                      static_cast<float>(size * std::sin(phase)));
-    }
+    auto [from, to] = depths.run(static_cast<float>(spot.depth_m - spot.half_m),
+                                 static_cast<float>(spot.depth_m + spot.half_m));
+    const auto n = [&](std::size_t k) {
+        return (depths.data()[k] - spot.depth_m) * spot.steepness;
+    };
+    while (from < to && n(from) < -reach) ++from;
+    while (from < to && n(to - 1) > reach) --to;
+    if (from == to) return;
+    auto* out = sum_.data() + columns_.offset(column);
+    if (depths.step_m() > 0)
+        add_evenly(spot, hat, n(from), depths.data()[from], depths.step_m(), out + from, out + to);
+    else
+        for (std::size_t k = from; k < to; ++k)
+            add_evenly(spot, hat, n(k), depths.data()[k], 0, out + k, out + k + 1);
 }
 
 void PressureSum::add(const PressureSum& other) {

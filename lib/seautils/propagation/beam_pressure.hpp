@@ -27,6 +27,8 @@ private:
     struct Spot;
     void meet(const Leg& leg, const BeamState& state, std::size_t column);
     void spread(const Spot& spot, std::size_t column);
+    static void add_evenly(const Spot& spot, bool hat, double n, double depth_m, double step_m,
+                           std::complex<float>* out, const std::complex<float>* end);
 
     const RaySea& sea_;
     const Columns& columns_;

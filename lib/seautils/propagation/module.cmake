@@ -18,3 +18,7 @@ seautils_module(NAME propagation
     reflection.cpp
     wavenumber.cpp
   DEPENDS core LINK fmt::fmt)
+
+# Square roots and comparisons become vectors only where nobody asks for errno or traps.
+set_source_files_properties(seautils/propagation/beam_intensity.cpp seautils/propagation/ray_tracer.cpp
+  PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")

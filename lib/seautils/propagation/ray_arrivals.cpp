@@ -44,13 +44,6 @@ bool baffled(const Probe& ray, const FieldOptions& options) {
            elevation_deg >= options.baffle_from_deg && elevation_deg <= options.baffle_to_deg;
 }
 
-/// What the fan is chosen for: folds show, phases do not matter.
-FieldOptions geometric() {
-    FieldOptions options;
-    options.beam = Beam::hat;
-    return options;
-}
-
 /// All rays of the fan at some ranges, and those between them that meet receivers.
 class Arrivals {
 public:
@@ -59,7 +52,7 @@ public:
           options_(options),
           sea_(sea),
           search_(sea, environment.receivers.depth_m, options.least_amplitude),
-          fan_(make_fan(environment, sea, geometric())) {}
+          fan_(make_bracketing_fan(environment, sea)) {}
 
     void find(std::size_t first, const std::vector<double>& range_m,
               std::vector<ReceiverArrivals>& out) {

@@ -35,17 +35,22 @@ double least_depth_m(const RaySea& sea, double last_m) {
     return std::clamp(half_way_m, 0.1 * (sea.bottom.depth_at(0) - above_m), 1e5);
 }
 
+/// As geometry wants it.
+double folds_rad(const Environment& environment, const RaySea& sea) {
+    const double last_m = last_range_m(environment);
+    const double depth_m = least_depth_m(sea, last_m);
+    const double folds = widest_rad * std::pow(std::max(depth_m, 1.) / 100, depth_power);
+    return std::max(std::min(folds, depth_share * depth_m / last_m), 1e-7);
+}
+
 double flat_spacing_rad(const Environment& environment, const RaySea& sea,
                         const FieldOptions& options) {
     const double last_m = last_range_m(environment);
     const double wavelength_m = sea.source_speed_mps / sea.frequency_hz;
-    const double depth_m = least_depth_m(sea, last_m);
-    const double bounces = depth_share * depth_m / last_m;
     const bool hat = options.beam == Beam::hat;
-    const double folds =
-        (hat ? hat_share : 1) * widest_rad * std::pow(std::max(depth_m, 1.) / 100, depth_power);
     const double waves = hat ? 0 : least_widths * pi * wavelength_m / last_m;
-    const double spacing = std::clamp(std::max(std::min(folds, bounces), waves), 1e-7, most_rad);
+    const double folds = (hat ? hat_share : 1) * folds_rad(environment, sea);
+    const double spacing = std::min(std::max(folds, waves), most_rad);
     if (options.sum == Sum::semi_coherent)
         return std::min(spacing, fringe_share * wavelength_m / std::max(sea.source_depth_m, 1e-3));
     if (options.sum == Sum::coherent)  // over a beam a plane front is off by little
@@ -104,6 +109,11 @@ std::vector<Launch> make_fan(const Environment& environment, const RaySea& sea,
                              const FieldOptions& options) {
     if (environment.fan.beams > 0) return even_fan(environment);
     return flat_fan(environment, flat_deg(options), flat_spacing_rad(environment, sea, options));
+}
+
+std::vector<Launch> make_bracketing_fan(const Environment& environment, const RaySea& sea) {
+    if (environment.fan.beams > 0) return even_fan(environment);
+    return flat_fan(environment, flat_deg({}), folds_rad(environment, sea));
 }
 
 BeamKind beam_kind(const Environment& environment, const FieldOptions& options) {

@@ -19,6 +19,9 @@ double level_at(const std::vector<PatternPoint>& pattern, double angle_deg);
 std::vector<Launch> make_fan(const Environment& environment, const RaySea& sea,
                              const FieldOptions& options);
 
+/// A fan whose neighbours bracket the rays that meet receivers.
+std::vector<Launch> make_bracketing_fan(const Environment& environment, const RaySea& sea);
+
 /// How the beams of that fan are added: as the Acoustics Toolbox does where the environment gives their number. Of an
 /// automatic fan, Gaussian beams are narrower, so that fewer do.
 BeamKind beam_kind(const Environment& environment, const FieldOptions& options);

@@ -50,9 +50,9 @@ void measure(const Leg& leg, Advance& to) {
     const double end_speed_mps =
         leg.speed_mps + leg.range_gradient * to.along_m + leg.depth_gradient * to.down_m;
     const double chord_m = std::sqrt(to.along_m * to.along_m + to.down_m * to.down_m);
-    const double mean_mps = std::sqrt(leg.speed_mps * end_speed_mps);
+    const double slowness = 1 / std::sqrt(leg.speed_mps * end_speed_mps);
     to.length_m = chord_m * arc_over_chord(0.5 * leg.curvature * chord_m);
-    to.delay_s = chord_m / mean_mps * slowing(0.5 * leg.gradient * chord_m / mean_mps);
+    to.delay_s = chord_m * slowness * slowing(0.5 * leg.gradient * chord_m * slowness);
     to.spread = spread_of(leg, to, end_speed_mps, chord_m);
 }
 
@@ -119,8 +119,8 @@ void RayTracer::begin(Leg& leg) const {
     leg.speed_mps = c.speed_at(range_m_, depth_m_);
     leg.range_gradient = c.range_gradient;
     leg.depth_gradient = c.depth_gradient;
-    leg.gradient = c.range_gradient == 0 ? std::abs(c.depth_gradient)
-                                         : std::hypot(c.range_gradient, c.depth_gradient);
+    leg.gradient =
+        std::sqrt(c.range_gradient * c.range_gradient + c.depth_gradient * c.depth_gradient);
     leg.curvature = (leg.range_gradient * sine_ - leg.depth_gradient * cosine_) / leg.speed_mps;
     leg.kick = 0;
     leg.magnitude = 1;
