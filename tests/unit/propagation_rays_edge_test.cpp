@@ -28,19 +28,18 @@ Environment shelf() {
 /// A field and arrivals within the time; loss is no less than in free space, but for foci.
 void expect_sense(const Environment& sea, double most_s = 5) {
     const auto start = std::chrono::steady_clock::now();
-    for (const Beam beam : {Beam::gaussian, Beam::hat})
-        for (const Sum sum : {Sum::incoherent, Sum::semi_coherent, Sum::coherent}) {
-            FieldOptions options;
-            options.sum = sum;
-            options.beam = beam;
-            const auto field = ray_field(sea, options);
-            ASSERT_EQ(field.loss_db.size(),
-                      sea.receivers.depth_m.size() * sea.receivers.range_m.size());
-            for (const float loss_db : field.loss_db)
-                if (!std::isnan(loss_db)) EXPECT_GT(loss_db, -20);
-        }
+    for (const Sum sum : {Sum::incoherent, Sum::semi_coherent, Sum::coherent}) {
+        FieldOptions options;
+        options.sum = sum;
+        options.beam = sum == Sum::semi_coherent ? Beam::hat : Beam::gaussian;
+        const auto field = ray_field(sea, options);
+        ASSERT_EQ(field.loss_db.size(),
+                  sea.receivers.depth_m.size() * sea.receivers.range_m.size());
+        for (const float loss_db : field.loss_db)
+            EXPECT_TRUE(std::isnan(loss_db) || loss_db > -20) << loss_db;
+    }
     Environment near = sea;
-    if (near.receivers.range_m.size() > 2) near.receivers.range_m.resize(2);
+    near.receivers.range_m.resize(1);
     for (const auto& receiver : ray_arrivals(near, {}))
         for (const auto& path : receiver.arrivals) {
             EXPECT_TRUE(std::isfinite(path.amplitude) && path.amplitude > 0);
@@ -146,10 +145,16 @@ TEST(RaysAtTheEdge, LongWavesAndShortOnes) {
 
 TEST(RaysAtTheEdge, LongRangeOverLittleWater) {
     auto sea = shelf();
-    sea.bottom.kind = BoundaryKind::rigid;
+    sea.bottom.kind = BoundaryKind::rigid;  // nothing is lost, however often it bounces
     sea.receivers.range_m = {10, 1e6};
     sea.fan = {-80, 80, 200};
-    expect_sense(sea, 20);
+    EXPECT_EQ(heard(sea), 6U);
+    EXPECT_THROW(ray_arrivals(sea, {}), DataError);
+    sea.water.profile.clear();
+    for (int k = 0; k <= 100; ++k) sea.water.profile.push_back({1. * k, 1500 - 0.1 * k});
+    const auto field = ray_field(sea, {});
+    ASSERT_EQ(field.basis.remarks.size(), 1U);
+    EXPECT_NE(field.basis.remarks[0].find("rays ended after 200000 legs"), std::string::npos);
 }
 
 TEST(RaysAtTheEdge, FanBehindAndSteeperThanUp) {

@@ -36,8 +36,8 @@ public:
 private:
     void make_bins();
     std::size_t bin(float depth_m) const {
-        const float place = std::max((depth_m - depth_m_.front()) * per_bin_ + 1.F, 0.F);
-        return static_cast<std::size_t>(std::min(place, last_bin_));
+        const float place = (depth_m - depth_m_.front()) * per_bin_ + 1.F;
+        return place > 0 ? static_cast<std::size_t>(std::min(place, last_bin_)) : 0;
     }
 
     std::vector<float> depth_m_;

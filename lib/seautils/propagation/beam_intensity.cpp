@@ -46,7 +46,7 @@ IntensitySum::IntensitySum(const RaySea& sea, const Columns& columns, const Beam
     : sea_(sea),
       columns_(columns),
       kind_(kind),
-      walk_(sea),
+      walk_(sea, kind.legs),
       least_of_kind_(kind.beam == Beam::hat ? 0.F : 1.F),
       sum_(columns.cells()) {}
 
@@ -163,6 +163,7 @@ void IntensitySum::spread(std::size_t k, float depth_m, float height) {
 }
 
 void IntensitySum::add(const IntensitySum& other) {
+    cut_ += other.cut();
     for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += other.sum_[k];
 }
 

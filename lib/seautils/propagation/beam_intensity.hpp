@@ -31,6 +31,7 @@ public:
     /// Traces the ray of an angle and adds its beam.
     void add(const Launch& launch);
     void add(const IntensitySum& other);
+    std::uint64_t cut() const { return cut_ + walk_.cut(); }  ///< rays ended for their legs
     /// Intensity re 1 m, at depths of a column as Columns has them.
     const float* column(std::size_t column) const { return sum_.data() + columns_.offset(column); }
 
@@ -45,6 +46,7 @@ private:
     const Columns& columns_;
     BeamKind kind_;
     BeamWalk walk_;
+    std::uint64_t cut_ = 0;  // by others
     Spots spots_{};
     double energy_ = 0, width_per_q_ = 0;  // of the ray under way
     float least_of_kind_;                  // 0: beams may be as narrow as they will

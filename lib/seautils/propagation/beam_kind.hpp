@@ -3,6 +3,8 @@
 
 #include "seautils/propagation/field.hpp"
 
+#include <cstdint>
+
 namespace seautils::propagation {
 
 /// What beams are added, and how.
@@ -10,6 +12,7 @@ struct BeamKind {
     Sum sum = Sum::incoherent;
     Beam beam = Beam::gaussian;
     double least_amplitude = 0;
+    std::uint64_t legs = 0;                           ///< after which a ray ends
     double baffle_from_sine = 0, baffle_to_sine = 0;  ///< of elevation; equal: none
     /// A Gaussian beam's width over the distance between neighbours.
     double width_factor = 1;

@@ -54,7 +54,7 @@ void PressureSum::add_evenly(const Spot& spot, bool hat, double n, double depth_
 }
 
 PressureSum::PressureSum(const RaySea& sea, const Columns& columns, const BeamKind& kind)
-    : sea_(sea), columns_(columns), kind_(kind), walk_(sea), sum_(columns.cells()) {}
+    : sea_(sea), columns_(columns), kind_(kind), walk_(sea, kind.legs), sum_(columns.cells()) {}
 
 void PressureSum::add(const Launch& launch) {
     const auto& ranges = columns_.range_m();
@@ -125,6 +125,7 @@ void PressureSum::spread(const Spot& spot, std::size_t column) {
 }
 
 void PressureSum::add(const PressureSum& other) {
+    cut_ += other.cut();
     for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += other.sum_[k];
 }
 

@@ -18,6 +18,7 @@ public:
     /// Traces the ray of an angle and adds its beam.
     void add(const Launch& launch);
     void add(const PressureSum& other);
+    std::uint64_t cut() const { return cut_ + walk_.cut(); }  ///< rays ended for their legs
     /// Pressure re 1 at 1 m, at depths of a column as Columns has them.
     const std::complex<float>* column(std::size_t column) const {
         return sum_.data() + columns_.offset(column);
@@ -34,7 +35,8 @@ private:
     const Columns& columns_;
     BeamKind kind_;
     BeamWalk walk_;
-    Launch launch_;  // of the ray under way
+    std::uint64_t cut_ = 0;  // by others
+    Launch launch_;          // of the ray under way
     std::vector<std::complex<float>> sum_;
 };
 

@@ -1,5 +1,7 @@
 #include "seautils/propagation/eigenrays.hpp"
 
+#include "seautils/core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -31,9 +33,10 @@ Probe probe_on(const Leg& leg, const BeamState& state, double launch_rad, double
 
 EigenraySearch::EigenraySearch(const RaySea& sea, const std::vector<double>& depth_m,
                                double least_amplitude)
-    : sea_(sea), depth_m_(depth_m), least_amplitude_(least_amplitude), walk_(sea) {}
+    : sea_(sea), depth_m_(depth_m), least_amplitude_(least_amplitude), walk_(sea, most_legs) {}
 
 std::vector<Probe> EigenraySearch::trace(double launch_rad, const std::vector<double>& range_m) {
+    count_probe();
     std::vector<Probe> out(range_m.size());
     std::size_t next = 0;
     walk_.run<BeamState>(launch_rad, range_m.back(), least_amplitude_,
@@ -47,7 +50,13 @@ std::vector<Probe> EigenraySearch::trace(double launch_rad, const std::vector<do
     return out;
 }
 
+void EigenraySearch::count_probe() {
+    if (walk_.legs() + 50 * ++probes_ > most_search)
+        throw DataError("receivers.range_m: more paths lead there than can be found");
+}
+
 Probe EigenraySearch::probe(double launch_rad, double range_m) {
+    count_probe();
     Probe out;
     out.launch_rad = launch_rad;
     walk_.run<BeamState>(launch_rad, range_m, least_amplitude_,

@@ -31,6 +31,7 @@ struct Probe {
 class EigenraySearch {
 public:
     /// @param depth_m  grows
+    /// @throws DataError  (all but this) more than `most_search` legs and probes would be needed
     EigenraySearch(const RaySea& sea, const std::vector<double>& depth_m, double least_amplitude);
 
     /// The ray of an angle at each of some ranges (which grow).
@@ -45,6 +46,7 @@ public:
 
 private:
     static constexpr int most_halvings = 22;
+    static constexpr std::uint64_t most_search = 200'000'000;
     struct Bracket {
         Probe a, b;
         std::size_t depth;
@@ -54,11 +56,13 @@ private:
     bool may_hold_depth(const Probe& a, const Probe& b) const;
     Probe refine(const Bracket& bracket, double range_m);
     Probe probe(double launch_rad, double range_m);
+    void count_probe();
 
     const RaySea& sea_;
     const std::vector<double>& depth_m_;
     double least_amplitude_;
     BeamWalk walk_;
+    std::uint64_t probes_ = 0;
     std::vector<Bracket> brackets_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "seautils/propagation/ray_tracer.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -24,8 +25,13 @@ struct EnergyState {
     double fade = 1;       ///< of intensity, by the water
 };
 
-/// A ray stops after so many legs, whatever the world.
-inline constexpr std::uint64_t most_legs = 200'000;
+/// A ray ends after so many legs, whatever the world; of a large fan, when its share of `most_legs_of_fan` is used up.
+inline constexpr std::uint64_t least_legs = 20'000, most_legs = 200'000;
+inline constexpr std::uint64_t most_legs_of_fan = 2'000'000'000;
+
+inline std::uint64_t legs_of_ray(std::size_t beams) {
+    return std::clamp<std::uint64_t>(most_legs_of_fan / (beams + 1), least_legs, most_legs);
+}
 
 /// Adds to a leg what its wall does and what follows from its whole.
 void finish(const RaySea& sea, Leg& leg);
@@ -56,7 +62,12 @@ inline void pass(const Leg& leg, EnergyState& state) {
 /// Legs of one ray; where the sea is periodic, of its first cycle, again and again.
 class BeamWalk {
 public:
-    explicit BeamWalk(const RaySea& sea) : sea_(sea) {}
+    /// @param legs  after which a ray ends
+    BeamWalk(const RaySea& sea, std::uint64_t legs) : sea_(sea), legs_of_ray_(legs) {}
+
+    /// Legs walked by all rays, and rays that ended for their number.
+    std::uint64_t legs() const { return legs_; }
+    std::uint64_t cut() const { return cut_; }
 
     /// Calls visit(leg, state) for each leg up to `stop_m` in range, with the state at its beginning; the leg's own
     /// range_m counts within the cycle. The ray ends there, when visit returns false, or when its amplitude is below
@@ -67,11 +78,13 @@ public:
         State state;
         launch(tracer, state);
         cycle_.clear();
-        std::uint64_t left = most_legs;
+        std::uint64_t left = legs_of_ray_;
         const auto step = [&](const Leg& leg) {
+            ++legs_;
             if (!visit(leg, std::as_const(state))) return false;
             pass(leg, state);
-            return state.amplitude >= least_amplitude && state.range_m < stop_m && --left > 0;
+            if (--left == 0) ++cut_;
+            return state.amplitude >= least_amplitude && state.range_m < stop_m && left > 0;
         };
         Leg leg;
         bool whole = false;
@@ -101,6 +114,7 @@ private:
     }
 
     const RaySea& sea_;
+    std::uint64_t legs_of_ray_, legs_ = 0, cut_ = 0;
     std::vector<Leg> cycle_;
 };
 

@@ -17,6 +17,7 @@ double flat_deg(const FieldOptions& options) { return options.sum == Sum::cohere
 constexpr double widest_rad = 0.0018, depth_power = -0.125;
 /// Neighbours are no farther apart at the last receiver than this part of the depth: over many bounces errors add up.
 constexpr double depth_share = 0.2;
+constexpr double narrowest_rad = 2e-4;
 /// … or than this many least widths of a Gaussian beam: those blur what lies between.
 constexpr double least_widths = 1.9;
 /// Hats blur nothing: what folds rays shows.
@@ -40,7 +41,7 @@ double folds_rad(const Environment& environment, const RaySea& sea) {
     const double last_m = last_range_m(environment);
     const double depth_m = least_depth_m(sea, last_m);
     const double folds = widest_rad * std::pow(std::max(depth_m, 1.) / 100, depth_power);
-    return std::max(std::min(folds, depth_share * depth_m / last_m), 1e-7);
+    return std::min(folds, std::max(depth_share * depth_m / last_m, narrowest_rad));
 }
 
 double flat_spacing_rad(const Environment& environment, const RaySea& sea,

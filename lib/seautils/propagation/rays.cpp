@@ -4,6 +4,8 @@
 #include "seautils/propagation/beam_pressure.hpp"
 #include "seautils/propagation/ray_fan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -45,7 +47,8 @@ void for_each_block(std::size_t blocks, std::uint32_t threads, const Work& work)
 /// All beams, added in blocks.
 template <class Sums>
 Sums add_beams(const RaySea& sea, const Columns& columns, const BeamKind& kind,
-               const std::vector<Launch>& fan, std::uint32_t threads) {
+               const std::vector<Launch>& fan, std::uint32_t threads,
+               std::vector<std::string>& remarks) {
     const std::size_t blocks = blocks_of(columns.cells());
     std::vector<Sums> sums;
     sums.reserve(blocks);
@@ -56,6 +59,9 @@ Sums add_beams(const RaySea& sea, const Columns& columns, const BeamKind& kind,
             sums[block].add(fan[k]);
     });
     for (std::size_t k = 1; k < blocks; ++k) sums[0].add(sums[k]);
+    if (sums[0].cut() > 0)
+        remarks.push_back(
+            fmt::format("{} of {} rays ended after {} legs", sums[0].cut(), fan.size(), kind.legs));
     return std::move(sums[0]);
 }
 
@@ -111,14 +117,16 @@ Field ray_field(const Environment& environment, const FieldOptions& options) {
     const RaySea sea = make_ray_sea(environment, field.basis.remarks);
     const Columns columns(sea, environment.receivers, options);
     const auto fan = make_fan(environment, sea, options);
-    const BeamKind kind = beam_kind(environment, options);
+    BeamKind kind = beam_kind(environment, options);
+    kind.legs = legs_of_ray(fan.size());
     field.basis.beams = fan.size();
+    const auto add = [&]<class Sums>() {
+        return add_beams<Sums>(sea, columns, kind, fan, options.threads, field.basis.remarks);
+    };
     if (options.sum == Sum::coherent)
-        fill(field, environment, columns,
-             add_beams<PressureSum>(sea, columns, kind, fan, options.threads));
+        fill(field, environment, columns, add.template operator()<PressureSum>());
     else
-        fill(field, environment, columns,
-             add_beams<IntensitySum>(sea, columns, kind, fan, options.threads));
+        fill(field, environment, columns, add.template operator()<IntensitySum>());
     return field;
 }
 
