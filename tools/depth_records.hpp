@@ -101,14 +101,33 @@ private:
         put(w.values());
     }
 
-    static plan::Objective within(plan::Objective o, const std::vector<plan::DepthBand>& allowed) {
-        for (std::size_t k = 0; k < o.depth_m.size(); ++k) {
-            const bool good = std::any_of(allowed.begin(), allowed.end(), [&](const auto& band) {
-                return o.depth_m[k] >= band.from_m && o.depth_m[k] <= band.to_m;
-            });
-            o.utility[k] = good && !std::isnan(o.utility[k]) ? std::min(o.utility[k], 1.0) : 0;
+    /// Steps to nothing where what is allowed ends.
+    static plan::Objective within(const plan::Objective& o,
+                                  const std::vector<plan::DepthBand>& allowed) {
+        plan::Objective part{.name = o.name, .weight = o.weight, .depth_m = {}, .utility = {}};
+        const auto add = [&part](double depth_m, double utility) {
+            part.depth_m.push_back(depth_m);
+            part.utility.push_back(std::isnan(utility) ? 0 : std::min(utility, 1.0));
+        };
+        const double first_m = o.depth_m.front(), last_m = o.depth_m.back();
+        const auto step = [&](double depth_m, double before, double behind) {
+            // bands may touch: there is no step down and up again
+            const bool touches = !part.depth_m.empty() && part.depth_m.back() >= depth_m;
+            if (!touches) add(depth_m, before);
+            add(depth_m, behind);
+        };
+        for (const plan::DepthBand& band : allowed) {
+            const double from_m = std::max(band.from_m, first_m),
+                         to_m = std::min(band.to_m, last_m);
+            if (from_m >= to_m || (!part.depth_m.empty() && from_m <= part.depth_m.back()))
+                continue;
+            step(from_m, 0, utility_at(o, from_m));
+            for (std::size_t k = 0; k < o.depth_m.size(); ++k)
+                if (o.depth_m[k] > from_m && o.depth_m[k] < to_m) add(o.depth_m[k], o.utility[k]);
+            step(to_m, utility_at(o, to_m), 0);
         }
-        return o;
+        if (part.depth_m.empty()) add(first_m, 0);
+        return part;
     }
 
     void write_row(const DepthDecision& d) {

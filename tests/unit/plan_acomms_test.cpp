@@ -285,6 +285,7 @@ TEST(Objectives, KeepTheirEndsAndSteps) {
     EXPECT_EQ(utility_at(step, 19.999), 0);
     EXPECT_EQ(utility_at(step, 20), 1);
     EXPECT_EQ(utility_at(step, 1000), 1);
+    EXPECT_EQ(utility_at({"", 1, {10, 20, 20, 30}, {1, 1, 0, 0}}, 20), 1) << "the larger of both";
     EXPECT_THROW(check({.name = "", .weight = 1, .depth_m = {1, 1, 1}, .utility = {0, 0, 0}}),
                  DataError);
     EXPECT_THROW(check({.name = "", .weight = 1, .depth_m = {1}, .utility = {1.5}}), DataError);

@@ -78,6 +78,9 @@ void check(const Objective& o) {
 double utility_at(const Objective& o, double depth_m) {
     const auto above = std::upper_bound(o.depth_m.begin(), o.depth_m.end(), depth_m);
     if (above == o.depth_m.begin()) return o.utility.front();
+    if (const auto k = static_cast<std::size_t>(above - o.depth_m.begin());
+        k >= 2 && o.depth_m[k - 1] == depth_m && o.depth_m[k - 2] == depth_m)
+        return std::max(o.utility[k - 1], o.utility[k - 2]);
     if (above == o.depth_m.end()) return o.utility.back();
     const auto k = static_cast<std::size_t>(above - o.depth_m.begin());
     const double from_m = o.depth_m[k - 1];

@@ -19,7 +19,7 @@ struct Objective {
 /// @throws DataError  names what is wrong, the value and the bound
 void check(const Objective& objective);
 
-/// NaN: no value beside it. At a step the utility behind it.
+/// NaN: no value beside it. At a step the larger of both.
 double utility_at(const Objective& objective, double depth_m);
 
 /// Weighted mean of the first one and others at the depths of the first: what has no value in the first has none. Where
