@@ -1,4 +1,13 @@
 seautils_module(NAME plan
   SOURCES
     acomms_depth.cpp
+    limits.cpp
+    link_csv.cpp
+    loss_csv.cpp
+    loss_field.cpp
+    max_snr_depth.cpp
+    motion.cpp
+    noise.cpp
+    objective.cpp
+    receipt.cpp
   DEPENDS core LINK fmt::fmt)
