@@ -1,9 +1,212 @@
 #include "seautils/propagation/modes.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/propagation/hankel.hpp"
+#include "seautils/propagation/level_sea.hpp"
+#include "seautils/propagation/mode_search.hpp"
+#include "seautils/propagation/reflection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace seautils::propagation {
 
-Field mode_field(const Environment&, const FieldOptions&) { throw DataError("not there yet"); }
+namespace {
+
+using Complex = std::complex<double>;
+constexpr Complex i{0, 1};
+constexpr double pi = std::numbers::pi;
+constexpr double forgotten_np = 16;  ///< a mode that has decayed by more adds nothing to a float
+constexpr double left_out_np = 4.6;  ///< a steeper mode would leave less than 1 % of its amplitude
+constexpr double radians_per_step = 0.6;  ///< of the steepest mode, on the coarser mesh
+constexpr std::size_t few_modes = 200;
+
+double first_range_m(const Environment& e) {
+    for (const double r : e.receivers.range_m)
+        if (r > 0) return r;
+    return 1;
+}
+
+/// The least ξ of modes that still count at a range: by what the boundaries reflect, the steepest ray that leaves some,
+/// or evanescent ones where nothing leaks.
+double least_xi(const Environment& e, const LevelSea& sea, double range_m) {
+    const double d = sea.column.height_m(), k = std::sqrt(sea.most_k2);
+    const double c = sea.guide.omega / k;
+    const auto log_reflection = [&](const Boundary& b, double grazing_rad) {
+        const double r = std::abs(
+            reflection_coefficient(b, e.frequency_hz, grazing_rad, c, e.water.density_gcm3));
+        return -std::log(std::max(r, 1e-300));
+    };
+    double steepest_deg = 0;
+    for (double deg = 0.25; deg < 90; deg += 0.25) {
+        const double grazing = deg * pi / 180;
+        const double cycles = range_m * std::tan(grazing) / (2 * d);
+        const double lost = log_reflection(e.surface, grazing) + log_reflection(e.bottom, grazing);
+        if (lost * cycles < left_out_np) steepest_deg = deg;
+    }
+    const double decay = left_out_np / range_m;
+    if (steepest_deg > 89) return -decay * decay;
+    const double kr = k * std::cos((steepest_deg + 0.25) * pi / 180);
+    return kr * kr;
+}
+
+struct Plan {
+    double xi;
+    std::size_t steps, modes;
+};
+
+Plan plan(const LevelSea& sea, double xi) {
+    const double across = std::sqrt(std::max(sea.most_k2 - xi, 0.0));
+    const double d = sea.column.height_m();
+    const double steps = std::max(24.0, std::ceil(across * d / radians_per_step));
+    // Modes are about half a wave across apart: refuse before a mesh is laid.
+    if (!(across * d / pi <= 2 * most_modes))
+        throw DataError(fmt::format("modes: about {:.0f} are needed, more than {} (rays can)",
+                                    across * d / pi, most_modes));
+    const auto n = static_cast<std::size_t>(steps);
+    const std::size_t modes = count_modes(Mesh(sea.guide, n), xi);
+    if (modes > most_modes || modes * n > most_mode_nodes)
+        throw DataError(fmt::format("modes: {} on {} nodes are more than {} on {} (rays can)",
+                                    modes, n, most_modes, most_mode_nodes / most_modes));
+    return {xi, n, modes};
+}
+
+/// As near to the source as it is cheap.
+Plan plan(const Environment& e, const LevelSea& sea) {
+    const double d = sea.column.height_m(), near = first_range_m(e);
+    const Plan far = plan(sea, least_xi(e, sea, std::max(near, 3 * d)));
+    if (far.modes > few_modes || near >= 3 * d) return far;
+    const double wanted = least_xi(e, sea, std::max(near, d / 2));
+    const double across = std::sqrt(std::max(sea.most_k2 - wanted, 0.0));
+    return across * d / pi < 2 * few_modes ? plan(sea, wanted) : far;
+}
+
+/// Modes as floats, mode by mode: what each has at the receivers' depths, times what the source gives it.
+struct Weights {
+    std::vector<float> re, im;
+    std::size_t depths = 0;
+
+    Weights(const std::vector<Mode>& modes, std::size_t n) : depths(n) {
+        for (const Mode& m : modes)
+            for (std::size_t z = 0; z < n; ++z) {
+                const Complex w = i * pi * m.values[z] * m.values[n];  // the last is the source
+                re.push_back(static_cast<float>(w.real()));
+                im.push_back(static_cast<float>(w.imag()));
+            }
+    }
+};
+
+/// exp(ikr) of all modes, range by range: turned on where ranges are evenly spaced.
+class Turning {
+public:
+    explicit Turning(const std::vector<Mode>& modes) {
+        for (const Mode& m : modes) {
+            const Complex k = std::sqrt(m.xi);
+            k_.push_back(k.imag() < 0 ? -k : k);
+        }
+        turned_.resize(k_.size());
+        turn_.resize(k_.size());
+    }
+    const Complex& k(std::size_t mode) const { return k_[mode]; }
+    const Complex& turned(std::size_t mode) const { return turned_[mode]; }
+
+    void to(double range_m) {
+        const double step = range_m - range_m_;
+        const bool same = std::abs(step - step_m_) <= 1e-12 * range_m;
+        for (std::size_t m = 0; m < k_.size(); ++m) {
+            if (same)
+                turned_[m] *= turn_[m];
+            else
+                turned_[m] = std::exp(i * k_[m] * range_m);
+        }
+        if (!same && since_ == 1)
+            for (std::size_t m = 0; m < k_.size(); ++m) turn_[m] = std::exp(i * k_[m] * step);
+        step_m_ = since_ >= 1 || same ? step : step_m_;
+        range_m_ = range_m;
+        since_ = 1;
+    }
+
+private:
+    std::vector<Complex> k_, turned_, turn_;
+    double range_m_ = 0, step_m_ = -1;
+    int since_ = 0;
+};
+
+struct Accumulator {
+    std::vector<float> re, im;
+    explicit Accumulator(std::size_t n) : re(n), im(n) {}
+
+    void clear() {
+        std::fill(re.begin(), re.end(), 0.0F);
+        std::fill(im.begin(), im.end(), 0.0F);
+    }
+    void add(const float* wr, const float* wi, const Complex& factor) {
+        const float cr = static_cast<float>(factor.real()), ci = static_cast<float>(factor.imag());
+        for (std::size_t z = 0; z < re.size(); ++z) {
+            re[z] += wr[z] * cr - wi[z] * ci;
+            im[z] += wr[z] * ci + wi[z] * cr;
+        }
+    }
+    void add_intensity(const float* wr, const float* wi, double factor) {
+        const float f = static_cast<float>(factor);
+        for (std::size_t z = 0; z < re.size(); ++z) re[z] += (wr[z] * wr[z] + wi[z] * wi[z]) * f;
+    }
+};
+
+void sum_modes(Field& field, const Environment& e, const LevelSea& sea,
+               const std::vector<Mode>& modes, Sum sum) {
+    const std::size_t n = sea.depth_m.size();
+    const Weights weights(modes, n);
+    Turning turning(modes);
+    Accumulator total(n);
+    for (std::size_t r = 0; r < e.receivers.range_m.size(); ++r) {
+        const double range = e.receivers.range_m[r];
+        if (range <= 0) continue;
+        turning.to(range);
+        total.clear();
+        for (std::size_t m = 0; m < modes.size(); ++m) {
+            const Complex kr = turning.k(m) * range;
+            if (kr.imag() > forgotten_np) continue;
+            const Complex factor = hankel_over_exp(kr) * turning.turned(m);
+            const float *wr = &weights.re[m * n], *wi = &weights.im[m * n];
+            if (sum == Sum::coherent)
+                total.add(wr, wi, factor);
+            else
+                total.add_intensity(wr, wi, std::norm(factor));
+        }
+        for (std::size_t z = 0; z < n; ++z) {
+            const std::size_t cell = sea.rows[z] * field.ranges + r;
+            if (sum == Sum::coherent)
+                put_pressure(field, cell, {total.re[z], total.im[z]});
+            else
+                put_intensity(field, cell, total.re[z]);
+        }
+    }
+}
+
+}  // namespace
+
+Field mode_field(const Environment& environment, const FieldOptions& options) {
+    const LevelSea sea(environment, options, "modes");
+    const Plan what = plan(environment, sea);
+    std::vector<double> depths = sea.depth_m;
+    depths.push_back(environment.source.depth_m);
+    const ModeSet set = find_modes(sea.guide, what.xi, what.steps, depths);
+    Field field = empty_field(environment, options, Engine::modes);
+    if (!sea.depth_m.empty()) sum_modes(field, environment, sea, set.modes, options.sum);
+    field.basis.modes = set.modes.size();
+    if (what.xi > 0)
+        field.basis.remarks.push_back(
+            fmt::format("modes of a phase speed above {:.0f} m/s are left out",
+                        sea.guide.omega / std::sqrt(what.xi)));
+    if (set.lost > 0)
+        field.basis.remarks.push_back(
+            fmt::format("{} of {} modes were not found", set.lost, set.lost + set.modes.size()));
+    return field;
+}
 
 }  // namespace seautils::propagation

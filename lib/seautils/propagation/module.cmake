@@ -4,9 +4,15 @@ seautils_module(NAME propagation
     beam_columns.cpp
     beam_intensity.cpp
     beam_pressure.cpp
+    column.cpp
+    edge.cpp
     eigenrays.cpp
     engine.cpp
     environment.cpp
+    hankel.cpp
+    level_sea.cpp
+    mesh_rows.cpp
+    mode_search.cpp
     modes.cpp
     ray_arrivals.cpp
     ray_beam.cpp

@@ -1,0 +1,79 @@
+#include "seautils/propagation/edge.hpp"
+
+#include "seautils/core/error.hpp"
+#include "seautils/propagation/absorption.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace seautils::propagation {
+
+namespace {
+
+using Complex = std::complex<double>;
+constexpr Complex i{0, 1};
+constexpr double pi = std::numbers::pi;
+constexpr double free_admittance = 1e12;  ///< of no pressure, 1/m
+
+Complex squared_wavenumber(double frequency_hz, double speed_mps, double db_per_wavelength) {
+    const double loss = db_per_wavelength / (2 * pi * db_per_neper);
+    const Complex k = 2 * pi * frequency_hz / speed_mps * Complex(1, loss);
+    return k * k;
+}
+
+/// √(ξ - k²): decays, or goes away.
+Complex outward_root(const Complex& difference) {
+    return difference.real() >= 0 ? std::sqrt(difference) : -i * std::sqrt(-difference);
+}
+
+}  // namespace
+
+Edge::Edge(const Boundary& b, const char* name, double frequency_hz, double water_density_gcm3)
+    : kind_(b.kind),
+      roughness_m_(b.roughness_m),
+      density_ratio_(water_density_gcm3 / b.density_gcm3),
+      compressional_(
+          squared_wavenumber(frequency_hz, b.sound_speed_mps, b.attenuation_db_per_wavelength)) {
+    if (kind_ == BoundaryKind::table)
+        throw DataError(fmt::format("{}.table: modes and wavenumbers need a half-space", name));
+    if (b.shear_speed_mps > 0)
+        shear_ = squared_wavenumber(frequency_hz, b.shear_speed_mps,
+                                    b.shear_attenuation_db_per_wavelength);
+}
+
+Complex Edge::admittance(const Complex& xi, const Complex& water) const {
+    Complex g = kind_ == BoundaryKind::vacuum ? free_admittance : 0;
+    if (kind_ == BoundaryKind::half_space) {
+        const Complex p = outward_root(xi - compressional_);
+        g = density_ratio_ * p;
+        if (shear_ != 0.0) {
+            const Complex s = outward_root(xi - shear_), sum = 2.0 * xi - shear_;
+            g *= shear_ * shear_ / (sum * sum - 4.0 * s * p * xi);
+        }
+    }
+    const Complex squared = water - xi;
+    if (roughness_m_ == 0 || squared.real() <= 0) return g;
+    const Complex across = i * std::sqrt(squared);
+    const Complex r =
+        (across + g) / (across - g) * std::exp(-2.0 * squared * (roughness_m_ * roughness_m_));
+    return -across * (1.0 - r) / (1.0 + r);
+}
+
+double Edge::real_admittance(double xi) const {
+    if (kind_ == BoundaryKind::vacuum) return free_admittance;
+    if (kind_ == BoundaryKind::rigid) return 0;
+    return density_ratio_ * std::sqrt(std::max(0.0, xi - compressional_.real()));
+}
+
+Complex Edge::excess_phase(double xi, double water) const {
+    if (xi >= water) return 0;
+    const Complex across = i * std::sqrt(water - xi);
+    const auto reflection = [&](const Complex& g) { return (across + g) / (across - g); };
+    const Complex ratio = reflection(admittance(xi, water)) / reflection(real_admittance(xi));
+    return std::abs(ratio) > 1e-6 ? -i * std::log(ratio) : Complex(0, 14);
+}
+
+}  // namespace seautils::propagation

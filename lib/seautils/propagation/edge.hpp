@@ -1,0 +1,40 @@
+#ifndef SEAUTILS_PROPAGATION_EDGE_HPP
+#define SEAUTILS_PROPAGATION_EDGE_HPP
+
+#include "seautils/propagation/environment.hpp"
+
+#include <complex>
+
+namespace seautils::propagation {
+
+/// A level boundary as modes and wavenumber integration meet it: -u'/u outward, of the pressure u, as a
+/// function of the squared horizontal wavenumber; time goes as exp(-iωt).
+class Edge {
+public:
+    using Complex = std::complex<double>;
+
+    /// @throws DataError  the boundary is a table: it says nothing of complex angles
+    Edge(const Boundary& boundary, const char* name, double frequency_hz,
+         double water_density_gcm3);
+
+    /// No pressure at the boundary at all.
+    bool is_free() const noexcept { return kind_ == BoundaryKind::vacuum && roughness_m_ == 0; }
+    /// Below the squared wavenumber of the half-space waves leave through it: the root is that of outgoing
+    /// waves (the cut of the Pekeris problem goes straight up).
+    /// @param xi     squared horizontal wavenumber, rad²/m²
+    /// @param water  squared wavenumber of the water at the boundary
+    Complex admittance(const Complex& xi, const Complex& water) const;
+    /// Of what is real in it: without losses, and rigid where waves leave. Never below 0; grows with xi.
+    double real_admittance(double xi) const;
+    /// exp(iλ) is the part that the reflection has in excess of that of real_admittance().
+    Complex excess_phase(double xi, double water) const;
+
+private:
+    BoundaryKind kind_;
+    double roughness_m_, density_ratio_;  ///< water over half-space
+    Complex compressional_, shear_;       ///< squared wavenumbers; shear_ 0 in a fluid
+};
+
+}  // namespace seautils::propagation
+
+#endif  // SEAUTILS_PROPAGATION_EDGE_HPP
