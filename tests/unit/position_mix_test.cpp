@@ -1,5 +1,6 @@
 // The mix codec: its laws, its parts against floating point, and the reference figures on whole tracks.
 #include "position_tracks.hpp"
+#include "sanitized.hpp"
 
 #include "seautils/core/error.hpp"
 #include "seautils/position/joint_code.hpp"
@@ -373,6 +374,7 @@ TEST(Mix, APlanTakesTheSurpriseOutOfTurns) {
 }
 
 TEST(Mix, ReferenceFiguresOnWholeTracks) {
+    if (is_sanitized) GTEST_SKIP() << "sanitizers: shorter tests walk the same code";
     // The longest tracks are left to `poscode stat`: they would take minutes here.
     if (!shared_tracks()) GTEST_SKIP() << "SEAUTILS_SHARED is not there";
     for (const ReferenceTrack& track : reference_tracks()) {
