@@ -5,9 +5,10 @@ setup() {
     load test_helper
     cd "$BATS_TEST_TMPDIR" || return
     cp -r "$BATS_TEST_DIRNAME/data/schemas"/. "$SEAUTILS_ROOT/examples" "$SEAUTILS_ROOT/schemas" .
-    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log,track.csv,cast.csv} .
+    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log,track.csv,cast.csv,losses.csv,dive.ndjson} .
     poscode encode --datum 60,5 track.csv > track.hex
     printf %s 'correct horse' > passphrase
+    awk 'BEGIN { print "depth_m,received,tl_db"; for (k = 0; k < 500; ++k) print k * 7 % 101, k * k % 3 == 0, 60 + k % 47 }' | tr ' ' , > link.csv
     # messages of all kinds, some of them bad
     awk 'BEGIN {
         for (k = 0; k < 3000; ++k) {
@@ -43,6 +44,9 @@ dccl-decode -s nav.proto -s fleet --time @1714564800 -F raw --resync -f text in.
 dccl-decode -s nav.proto -s fleet --time @1714564800 -F raw --resync in.hex
 dccl-decode -s nav.proto -m Nav --time @1714564800 -f csv in.hex
 dccl-decode -s examples/legacy/dive.xml --time 2011-07-25T12:00:00Z examples/legacy/log.hex
+depth-plan acomms --loss losses.csv --exclude 20,40 --min-altitude 5 dive.ndjson
+depth-plan snr --loss losses.csv --critical-depth 50 -f csv dive.ndjson
+depth-plan link-stats --bandwidth 10 link.csv
 mm-serial --replay --raw modem.log
 dccl-info -s schemas
 dccl-info -s schemas -s fleet --format ndjson
