@@ -4,6 +4,7 @@ seautils_module(NAME propagation
     beam_columns.cpp
     beam_intensity.cpp
     beam_pressure.cpp
+    case_file.cpp
     column.cpp
     edge.cpp
     eigenrays.cpp
@@ -23,7 +24,7 @@ seautils_module(NAME propagation
     rays.cpp
     reflection.cpp
     wavenumber.cpp
-  DEPENDS core LINK fmt::fmt)
+  DEPENDS core LINK fmt::fmt $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
 
 # Square roots and comparisons become vectors only where nobody asks for errno or traps.
 set_source_files_properties(seautils/propagation/beam_intensity.cpp seautils/propagation/ray_tracer.cpp
