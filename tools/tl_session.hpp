@@ -1,0 +1,203 @@
+// The inputs of tl-model, one after another: environment files, and streams of requests.
+#ifndef SEAUTILS_TOOLS_TL_SESSION_HPP
+#define SEAUTILS_TOOLS_TL_SESSION_HPP
+
+#include "tl_answer.hpp"
+#include "tl_options.hpp"
+#include "tl_request.hpp"
+#include "tl_schema.hpp"
+#include "tl_workers.hpp"
+
+#include "seautils/cli/io.hpp"
+#include "seautils/cli/loop.hpp"
+#include "seautils/core/error.hpp"
+#include "seautils/propagation/case_file.hpp"
+#include "seautils/schema/json.hpp"
+#include "seautils/schema/message.hpp"
+#include "seautils/stream/hex.hpp"
+#include "seautils/stream/whole_file.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace seautils::tools {
+
+class TlSession {
+public:
+    TlSession(cli::Io& io, const TlOptions& options) : io_(io), options_(options) {}
+
+    void run() {
+        std::vector<std::string> files = io_.files;
+        if (files.empty()) files = {"-"};
+        for (const std::string& file : files) {
+            if (io_.ended_by != 0) return;
+            const std::string form = form_of(file);
+            if (form == "case" || form == "env")
+                answer_file(file, form);
+            else
+                answer_requests(file, form);
+        }
+    }
+
+private:
+    static constexpr std::size_t most_bytes = std::size_t{1} << 26;
+
+    std::string form_of(const std::string& file) const {
+        if (io_.input_format != "auto") return io_.input_format;
+        if (file.ends_with(".json")) return "case";
+        if (file.ends_with(".env")) return "env";
+        return "ndjson";
+    }
+
+    /// All bytes of a file. @throws Error(no_input)
+    std::string content_of(const std::string& file) {
+        std::string all;
+        if (file == "-") {
+            io_.files = {file};
+            io_.for_each_block([&](std::string_view bytes, std::uint64_t, bool) {
+                if (all.size() < most_bytes) all += bytes;
+                return bytes.size();
+            });
+        } else {
+            auto text = stream::read_whole_file(file, most_bytes);
+            if (!text) throw Error(ExitCode::no_input, file + ": No such file or directory");
+            all = std::move(*text);
+        }
+        if (all.size() >= most_bytes)
+            throw DataError(fmt::format("is not shorter than {} bytes", most_bytes));
+        return all;
+    }
+
+    /// What a file asks for. @throws DataError, Error(no_input)
+    TlTask read_task(const std::string& file, const std::string& form) {
+        if (form != "case") throw DataError("not there yet");
+        pg::Case c = pg::read_case(content_of(file));
+        for (const std::string& remark : c.remarks) io_.warn(name_of(file) + ": " + remark);
+        TlTask task;
+        task.environment = std::move(c.environment);
+        task.arrivals_at = std::move(c.arrivals);
+        return task;
+    }
+
+    static std::string name_of(const std::string& file) { return file == "-" ? "<stdin>" : file; }
+
+    void answer_file(const std::string& file, const std::string& form) {
+        try {
+            auto task = std::make_shared<TlTask>(read_task(file, form));
+            options_.apply(*task);
+            const TlResult result = computer_.compute(std::move(task));
+            if (!result.error.empty()) throw DataError(result.error);
+            for (const std::string& remark : result.field.basis.remarks)
+                io_.inform(name_of(file) + ": " + remark);
+            write(result);
+        } catch (const DataError& e) {
+            io_.refuse(name_of(file) + ": ", e.what());
+        }
+    }
+
+    TlKnown first_known() {
+        if (options_.base.empty()) {
+            TlTask task;
+            options_.apply(task);
+            return {std::move(task), false};
+        }
+        const bool is_env = options_.base.ends_with(".env");
+        try {
+            TlTask task = read_task(options_.base, is_env ? "env" : "case");
+            options_.apply(task);
+            return {std::move(task), true};
+        } catch (const DataError& e) {
+            throw ConfigError(options_.base + ": " + e.what());
+        }
+    }
+
+    void answer_requests(const std::string& file, const std::string& form) {
+        if (!known_) known_ = first_known();
+        io_.files = {file};
+        TlWorkers workers(options_.jobs());
+        cli::Loop loop(io_);
+        const bool binary = form == "delimited";
+        loop.inputs(binary ? cli::Framing::delimited : cli::Framing::lines,
+                    [&](std::string_view bytes) { answer(bytes, binary, workers); });
+        loop.before_wait([&] { write_pending(workers, 0); });
+        loop.run();
+        write_pending(workers, 0);
+    }
+
+    /// What is wrong with a request is its answer, and is said where messages are.
+    void answer(std::string_view bytes, bool binary, TlWorkers& workers) {
+        TlResult result;
+        TlKnown before = *known_;
+        auto task = std::make_shared<TlTask>();
+        try {
+            if (binary)
+                schema::read_binary(bytes, schema_.request(), values_);
+            else
+                json_.read(bytes, schema_.request(), values_);
+            const schema::Slot& id = values_[field::request::id];
+            if (id.present) task->id = static_cast<std::uint32_t>(id.u);
+            known_->merge(values_);
+            *task = known_->task();
+            pg::check(task->environment);
+        } catch (const DataError& e) {
+            known_ = std::move(before);
+            result.error = e.what();
+        }
+        result.task = std::move(task);
+        const std::string error = result.error;
+        workers.post(std::move(result));
+        write_pending(workers, workers.most_pending());
+        if (!error.empty()) throw DataError(error);
+    }
+
+    void write_pending(TlWorkers& workers, std::size_t most) {
+        while (workers.pending() > most || workers.is_ready()) write(workers.take());
+    }
+
+    void write(const TlResult& result) {
+        std::string& out = io_.out.buffer();
+        if (io_.format == "csv") {
+            if (result.error.empty() && result.task->loss)
+                append_csv(result.task->environment.receivers, result.field.loss_db, out);
+        } else if (io_.format == "ndjson" && options_.arrivals && result.error.empty()) {
+            const TlArrivalLines lines(result.task->environment.frequency_hz);
+            for (const pg::ReceiverArrivals& receiver : result.arrivals) {
+                lines.append(receiver, out);
+                io_.out.commit();
+            }
+        } else {
+            write_record(result, out);
+        }
+        io_.out.commit();
+    }
+
+    void write_record(const TlResult& result, std::string& out) {
+        const schema::Values& values = writer_.put(result);
+        if (io_.format == "ndjson") {
+            schema::write_json(values, out);
+            out += '\n';
+            return;
+        }
+        bytes_.clear();
+        schema::write_binary(values, bytes_);
+        stream::append_delimited(out, bytes_);
+    }
+
+    cli::Io& io_;
+    const TlOptions& options_;
+    std::optional<TlKnown> known_;
+    TlComputer computer_;
+    TlSchema schema_;
+    schema::JsonReader json_;
+    schema::Values values_;
+    TlAnswerWriter writer_;
+    std::string bytes_;
+};
+
+}  // namespace seautils::tools
+
+#endif  // SEAUTILS_TOOLS_TL_SESSION_HPP
