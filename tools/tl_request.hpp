@@ -51,6 +51,7 @@ struct TlTask {
     std::string program;  ///< somebody else's engine in place of ours
     bool smooth = false, loss = true, arrivals = false;
     std::optional<std::uint32_t> id;
+    std::string place;  ///< of the request, for messages
 };
 
 /// Everything that requests have said so far.

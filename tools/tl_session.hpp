@@ -122,14 +122,14 @@ private:
         cli::Loop loop(io_);
         const bool binary = form == "delimited";
         loop.inputs(binary ? cli::Framing::delimited : cli::Framing::lines,
-                    [&](std::string_view bytes) { answer(bytes, binary, workers); });
+                    [&](std::string_view bytes) { answer(bytes, binary, loop.place(), workers); });
         loop.before_wait([&] { write_pending(workers, 0); });
         loop.run();
         write_pending(workers, 0);
     }
 
-    /// What is wrong with a request is its answer, and is said where messages are.
-    void answer(std::string_view bytes, bool binary, TlWorkers& workers) {
+    /// What is wrong with a request is its answer, and nothing of it counts.
+    void answer(std::string_view bytes, bool binary, std::string place, TlWorkers& workers) {
         TlResult result;
         TlKnown before = *known_;
         auto task = std::make_shared<TlTask>();
@@ -147,11 +147,10 @@ private:
             known_ = std::move(before);
             result.error = e.what();
         }
+        task->place = std::move(place);
         result.task = std::move(task);
-        const std::string error = result.error;
         workers.post(std::move(result));
         write_pending(workers, workers.most_pending());
-        if (!error.empty()) throw DataError(error);
     }
 
     void write_pending(TlWorkers& workers, std::size_t most) {
@@ -173,6 +172,7 @@ private:
             write_record(result, out);
         }
         io_.out.commit();
+        if (!result.error.empty()) io_.refuse(result.task->place, result.error);
     }
 
     void write_record(const TlResult& result, std::string& out) {

@@ -23,6 +23,8 @@ seautils_module(NAME propagation
     ray_tracer.cpp
     rays.cpp
     reflection.cpp
+    smooth.cpp
+    spread.cpp
     wavenumber.cpp
   DEPENDS core LINK fmt::fmt $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
 
