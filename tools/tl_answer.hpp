@@ -133,6 +133,7 @@ public:
         }
         for (const pg::ReceiverArrivals& receiver : result.arrivals) paths(receiver);
         basis(task, result.field.basis);
+        real(field::answer::source_depth_m, task.environment.source.depth_m);
         return values_;
     }
 

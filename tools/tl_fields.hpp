@@ -110,7 +110,7 @@ enum : std::uint32_t {
 };
 }
 namespace answer {
-enum : std::uint32_t { id, error, depth_m, range_m, tl_db, arrivals, basis };
+enum : std::uint32_t { id, error, depth_m, range_m, tl_db, arrivals, basis, source_depth_m };
 }
 
 }  // namespace field

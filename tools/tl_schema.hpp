@@ -126,7 +126,8 @@ private:
                                                      reals("range_m"),
                                                      {"tl_db", Kind::float32, true},
                                                      part("arrivals", paths, true),
-                                                     part("basis", basis)});
+                                                     part("basis", basis),
+                                                     real("source_depth_m")});
     }
 
     SspSchema profile_;

@@ -16,7 +16,9 @@
 #include "seautils/schema/message.hpp"
 #include "seautils/stream/hex.hpp"
 #include "seautils/stream/whole_file.hpp"
+#include "seautils/toolbox/env_file.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,28 +74,54 @@ private:
         return all;
     }
 
-    /// What a file asks for. @throws DataError, Error(no_input)
-    TlTask read_task(const std::string& file, const std::string& form) {
-        if (form != "case") throw DataError("not there yet");
-        pg::Case c = pg::read_case(content_of(file));
-        for (const std::string& remark : c.remarks) io_.warn(name_of(file) + ": " + remark);
+    /// What a file asks for: a task for each source. @throws DataError, Error(no_input)
+    std::vector<TlTask> read_tasks(const std::string& file, const std::string& form) {
         TlTask task;
-        task.environment = std::move(c.environment);
-        task.arrivals_at = std::move(c.arrivals);
-        return task;
+        std::vector<double> source_depth_m;
+        std::vector<std::string> remarks;
+        if (form == "case") {
+            pg::Case c = pg::read_case(content_of(file));
+            task.environment = std::move(c.environment);
+            task.arrivals_at = std::move(c.arrivals);
+            remarks = std::move(c.remarks);
+        } else {
+            toolbox::EnvFile env = toolbox::read_env(content_of(file), beside(file));
+            task.environment = std::move(env.environment);
+            task.options = env.options;
+            task.engine = env.engine;
+            task.arrivals = env.arrivals;
+            task.loss = !env.arrivals;
+            source_depth_m = std::move(env.source_depth_m);
+            remarks = std::move(env.remarks);
+        }
+        for (const std::string& remark : remarks) io_.warn(name_of(file) + ": " + remark);
+        options_.apply(task);
+        std::vector<TlTask> tasks(std::max<std::size_t>(source_depth_m.size(), 1), task);
+        for (std::size_t k = 0; k < source_depth_m.size(); ++k)
+            tasks[k].environment.source.depth_m = source_depth_m[k];
+        return tasks;
+    }
+
+    /// Files of the same name with another extension.
+    static toolbox::Companion beside(const std::string& file) {
+        const std::string root = file.substr(0, file.size() - (file.ends_with(".env") ? 4 : 0));
+        return [root](const std::string& extension) {
+            return stream::read_whole_file(root + "." + extension, most_bytes);
+        };
     }
 
     static std::string name_of(const std::string& file) { return file == "-" ? "<stdin>" : file; }
 
     void answer_file(const std::string& file, const std::string& form) {
         try {
-            auto task = std::make_shared<TlTask>(read_task(file, form));
-            options_.apply(*task);
-            const TlResult result = computer_.compute(std::move(task));
-            if (!result.error.empty()) throw DataError(result.error);
-            for (const std::string& remark : result.field.basis.remarks)
-                io_.inform(name_of(file) + ": " + remark);
-            write(result);
+            for (TlTask& task : read_tasks(file, form)) {
+                const TlResult result =
+                    computer_.compute(std::make_shared<TlTask>(std::move(task)));
+                if (!result.error.empty()) throw DataError(result.error);
+                for (const std::string& remark : result.field.basis.remarks)
+                    io_.inform(name_of(file) + ": " + remark);
+                write(result);
+            }
         } catch (const DataError& e) {
             io_.refuse(name_of(file) + ": ", e.what());
         }
@@ -107,9 +135,7 @@ private:
         }
         const bool is_env = options_.base.ends_with(".env");
         try {
-            TlTask task = read_task(options_.base, is_env ? "env" : "case");
-            options_.apply(task);
-            return {std::move(task), true};
+            return {read_tasks(options_.base, is_env ? "env" : "case").front(), true};
         } catch (const DataError& e) {
             throw ConfigError(options_.base + ": " + e.what());
         }
