@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
         "  tl-model --format csv CASE.json\n",
         {.config = true}};
     app.input_formats({"auto", "case", "env", "ndjson", "delimited"});
-    app.output_formats({"ndjson", "csv", "delimited"});
+    app.output_formats({"ndjson", "csv", "delimited", "shd", "arr", "arr-binary"});
     options.add(app.options());
     return app.main(argc, argv, [&](cli::Io& io) { tools::TlSession(io, options).run(); });
 }

@@ -7,6 +7,7 @@
 #include "seautils/cli/app.hpp"
 #include "seautils/core/error.hpp"
 #include "seautils/core/text.hpp"
+#include "seautils/toolbox/shd_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -36,6 +37,11 @@ public:
                "Give up a ray when its boundaries have left less (1e-4)", 0, 1, "A");
         whole(app, "--threads", threads_, "For one field (1)", 1, 64, "N");
         whole(app, "--jobs", jobs_, "Requests answered at the same time (1)", 1, 64, "N");
+        choice(app, "--shd-format", shd_format_, "Layout of a .shd file: 2022, 2023 (2023)",
+               [](const std::string& s) {
+                   if (s != "2022" && s != "2023")
+                       throw DataError(quote(s) + " is none of 2022, 2023");
+               });
         app.add_option("--base", base, "CASE.json or .env that requests begin with")
             ->option_text("FILE");
     }
@@ -56,6 +62,9 @@ public:
         task.loss = false;
     }
 
+    toolbox::ShdLayout shd_layout() const {
+        return shd_format_ == "2022" ? toolbox::ShdLayout::of_2022 : toolbox::ShdLayout::of_2023;
+    }
     std::uint32_t jobs() const { return jobs_.value_or(1); }
 
     bool arrivals = false, smooth = false;
@@ -115,7 +124,7 @@ private:
         bounded(app, option, value, what, least, most, text);
     }
 
-    std::optional<std::string> sum_, beam_, engine_;
+    std::optional<std::string> sum_, beam_, engine_, shd_format_;
     std::optional<std::uint32_t> beams_, threads_, jobs_;
     std::optional<double> least_amplitude_;
 };

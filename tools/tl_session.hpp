@@ -6,6 +6,7 @@
 #include "tl_options.hpp"
 #include "tl_request.hpp"
 #include "tl_schema.hpp"
+#include "tl_toolbox.hpp"
 #include "tl_workers.hpp"
 
 #include "seautils/cli/io.hpp"
@@ -112,19 +113,45 @@ private:
 
     static std::string name_of(const std::string& file) { return file == "-" ? "<stdin>" : file; }
 
+    bool is_toolbox_file() const {
+        return io_.format == "shd" || io_.format == "arr" || io_.format == "arr-binary";
+    }
+
     void answer_file(const std::string& file, const std::string& form) {
         try {
+            std::vector<TlResult> results;
             for (TlTask& task : read_tasks(file, form)) {
-                const TlResult result =
-                    computer_.compute(std::make_shared<TlTask>(std::move(task)));
-                if (!result.error.empty()) throw DataError(result.error);
-                for (const std::string& remark : result.field.basis.remarks)
+                if (io_.format == "shd" || io_.format == "csv") want(task, true);
+                if (io_.format.starts_with("arr")) want(task, false);
+                results.push_back(computer_.compute(std::make_shared<TlTask>(std::move(task))));
+                if (!results.back().error.empty()) throw DataError(results.back().error);
+                for (const std::string& remark : results.back().field.basis.remarks)
                     io_.inform(name_of(file) + ": " + remark);
-                write(result);
+                if (is_toolbox_file()) continue;
+                write(results.back());
+                results.pop_back();
             }
+            if (is_toolbox_file()) write_toolbox_file(results);
         } catch (const DataError& e) {
             io_.refuse(name_of(file) + ": ", e.what());
         }
+    }
+
+    /// The format says whether losses or arrivals are wanted. @throws Error(usage)  --arrivals says otherwise
+    void want(TlTask& task, bool losses) const {
+        if (losses && options_.arrivals)
+            throw Error(ExitCode::usage,
+                        "option --arrivals: format " + io_.format + " holds losses");
+        task.loss = losses;
+        task.arrivals = !losses;
+    }
+
+    void write_toolbox_file(const std::vector<TlResult>& results) {
+        if (io_.format == "shd")
+            io_.out << write_shd(shd_of(results), options_.shd_layout());
+        else
+            io_.out << write_arr(arr_of(results), io_.format == "arr" ? toolbox::ArrForm::text
+                                                                      : toolbox::ArrForm::binary);
     }
 
     TlKnown first_known() {
@@ -142,6 +169,9 @@ private:
     }
 
     void answer_requests(const std::string& file, const std::string& form) {
+        if (is_toolbox_file())
+            throw Error(ExitCode::usage,
+                        "option --format: " + io_.format + " is for CASE.json and .env files");
         if (!known_) known_ = first_known();
         io_.files = {file};
         TlWorkers workers(options_.jobs());
