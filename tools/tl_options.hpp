@@ -7,13 +7,16 @@
 #include "seautils/cli/app.hpp"
 #include "seautils/core/error.hpp"
 #include "seautils/core/text.hpp"
+#include "seautils/toolbox/external.hpp"
 #include "seautils/toolbox/shd_file.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace seautils::tools {
@@ -42,6 +45,9 @@ public:
                    if (s != "2022" && s != "2023")
                        throw DataError(quote(s) + " is none of 2022, 2023");
                });
+        number(app, "--engine-timeout", timeout_s_, "Of another's engine (60)", 0.1, 86400,
+               "SECONDS");
+        whole(app, "--engine-memory", memory_mib_, "It may take (2048)", 16, 1'048'576, "MIB");
         app.add_option("--base", base, "CASE.json or .env that requests begin with")
             ->option_text("FILE");
     }
@@ -64,6 +70,12 @@ public:
 
     toolbox::ShdLayout shd_layout() const {
         return shd_format_ == "2022" ? toolbox::ShdLayout::of_2022 : toolbox::ShdLayout::of_2023;
+    }
+    toolbox::ExternalRun external() const {
+        std::error_code none;
+        const std::filesystem::path folder = std::filesystem::temp_directory_path(none);
+        return {none ? "/tmp" : folder.string(),
+                {timeout_s_.value_or(60), std::uint64_t{memory_mib_.value_or(2048)} << 20U}};
     }
     std::uint32_t jobs() const { return jobs_.value_or(1); }
 
@@ -125,8 +137,8 @@ private:
     }
 
     std::optional<std::string> sum_, beam_, engine_, shd_format_;
-    std::optional<std::uint32_t> beams_, threads_, jobs_;
-    std::optional<double> least_amplitude_;
+    std::optional<std::uint32_t> beams_, threads_, jobs_, memory_mib_;
+    std::optional<double> least_amplitude_, timeout_s_;
 };
 
 }  // namespace seautils::tools

@@ -31,7 +31,8 @@ namespace seautils::tools {
 
 class TlSession {
 public:
-    TlSession(cli::Io& io, const TlOptions& options) : io_(io), options_(options) {}
+    TlSession(cli::Io& io, const TlOptions& options)
+        : io_(io), options_(options), computer_(options.external()) {}
 
     void run() {
         std::vector<std::string> files = io_.files;
@@ -174,7 +175,7 @@ private:
                         "option --format: " + io_.format + " is for CASE.json and .env files");
         if (!known_) known_ = first_known();
         io_.files = {file};
-        TlWorkers workers(options_.jobs());
+        TlWorkers workers(options_.jobs(), options_.external());
         cli::Loop loop(io_);
         const bool binary = form == "delimited";
         loop.inputs(binary ? cli::Framing::delimited : cli::Framing::lines,

@@ -7,6 +7,7 @@
 #include "seautils/propagation/engine.hpp"
 #include "seautils/propagation/rays.hpp"
 #include "seautils/propagation/smooth.hpp"
+#include "seautils/toolbox/external.hpp"
 
 #include <condition_variable>
 #include <cstdint>
@@ -24,6 +25,8 @@ namespace seautils::tools {
 /// Computes tasks one after another. What it keeps from one to the next belongs here.
 class TlComputer {
 public:
+    explicit TlComputer(toolbox::ExternalRun run) : run_(std::move(run)) {}
+
     /// No exception leaves it: what is wrong is in the result.
     TlResult compute(std::shared_ptr<const TlTask> task) noexcept {
         TlResult result;
@@ -44,7 +47,7 @@ private:
 
     void run(const TlTask& task, TlResult& result) {
         if (task.loss) {
-            result.field = compute_field(task.environment, task.engine, task.options);
+            result.field = field_of(task);
             if (task.smooth) pg::smooth(result.field, smooth_depths, smooth_ranges);
         }
         if (!task.arrivals) return;
@@ -57,15 +60,28 @@ private:
                             "{}",
                             n, most_receivers));
         pg::check(there);
-        result.arrivals = ray_arrivals(there, task.options);
+        if (task.program.empty())
+            result.arrivals = ray_arrivals(there, task.options);
+        else
+            result.arrivals =
+                external_arrivals(toolbox::parse_program(task.program), there, task.options, run_);
     }
+
+    pg::Field field_of(const TlTask& task) const {
+        if (task.program.empty()) return compute_field(task.environment, task.engine, task.options);
+        pg::check(task.environment);
+        return external_field(toolbox::parse_program(task.program), task.environment, task.options,
+                              run_);
+    }
+
+    toolbox::ExternalRun run_;
 };
 
 /// Results in the order of their tasks, whoever is ready first.
 class TlWorkers {
 public:
     /// @param jobs  1: computed as they are posted, without a thread
-    explicit TlWorkers(std::uint32_t jobs) {
+    TlWorkers(std::uint32_t jobs, const toolbox::ExternalRun& run) : run_(run), computer_(run) {
         for (std::uint32_t k = 0; jobs > 1 && k < jobs; ++k)
             threads_.emplace_back([this] { work(); });
     }
@@ -120,7 +136,7 @@ private:
     };
 
     void work() {
-        TlComputer computer;
+        TlComputer computer(run_);
         std::unique_lock lock(mutex_);
         for (;;) {
             todo_.wait(lock, [this] { return ends_ || !queue_.empty(); });
@@ -136,6 +152,7 @@ private:
         }
     }
 
+    const toolbox::ExternalRun run_;
     std::mutex mutex_;
     std::condition_variable todo_, done_;
     std::deque<std::unique_ptr<Place>> line_;

@@ -138,7 +138,7 @@ TEST(ShdFile, RefusesWhatItIsNot) {
     EXPECT_EQ(refusal(other), "it has 100 ranges in a record of 164 bytes");
     other = file;
     std::memset(other.data() + std::size_t{9} * 41 * 4, 0, 64);
-    EXPECT_EQ(refusal(other), "it has ranges that do not grow");
+    EXPECT_EQ(refusal(other), "it has ranges in no order");
 }
 
 TEST(ArrFile, Text) {
@@ -169,6 +169,18 @@ TEST(ArrFile, Text) {
     EXPECT_EQ(arrived, 11);
     EXPECT_EQ(top, 2);
     EXPECT_EQ(bottom, 1);
+}
+
+TEST(ArrFile, ReadsWhatItWrites) {
+    const ArrFile f = two_receivers(), g = read_arr(write_arr(f, ArrForm::text));
+    EXPECT_EQ(g.range_m, f.range_m);
+    ASSERT_EQ(g.receivers.size(), 2U);
+    ASSERT_EQ(g.receivers[0].arrivals.size(), 2U);
+    const propagation::Arrival &a = f.receivers[0].arrivals[1], &b = g.receivers[0].arrivals[1];
+    EXPECT_EQ(a.delay_s, b.delay_s);
+    EXPECT_NEAR(a.absorption_db, b.absorption_db, 1e-6);
+    EXPECT_EQ(a.bottom_bounces, b.bottom_bounces);
+    EXPECT_EQ(g.receivers[1].depth_m, 20);
 }
 
 TEST(ArrFile, BinaryIsRecordsOfFortran) {

@@ -1,5 +1,7 @@
 #include "seautils/toolbox/arr_file.hpp"
 
+#include "seautils/core/error.hpp"
+#include "seautils/toolbox/list_directed.hpp"
 #include "seautils/toolbox/little_endian.hpp"
 
 #include <fmt/format.h>
@@ -107,6 +109,82 @@ std::string write(const ArrFile& file, Form form) {
 }
 
 }  // namespace
+
+namespace {
+
+/// Reads values one by one, each of which must be there.
+class ArrReader {
+public:
+    explicit ArrReader(std::string_view text) : file_(text) {}
+
+    ArrFile read() {
+        ArrFile f;
+        std::string tag;
+        file_.read([&](ListDirected::Read& r) { r.text(tag, "the tag"); });
+        if (tag != "2D") throw DataError("line 1: the tag is not '2D'");
+        file_.read([&](ListDirected::Read& r) { f.frequency_hz = real(r, "frequency"); });
+        f.source_depth_m = axis("source depth");
+        f.receiver_depth_m = axis("receiver depth");
+        f.range_m = axis("range");
+        for (std::size_t source = 0; source < f.source_depth_m.size(); ++source) {
+            count("the largest number of arrivals");
+            for (const double depth_m : f.receiver_depth_m)
+                for (const double range_m : f.range_m)
+                    f.receivers.push_back({depth_m, range_m, arrivals(f.frequency_hz)});
+        }
+        return f;
+    }
+
+private:
+    double real(ListDirected::Read& r, std::string_view name) {
+        double x = 0;
+        if (!r.real(x, name)) file_.refuse(fmt::format("{} is not given", name));
+        return x;
+    }
+    std::int64_t count(std::string_view name) {
+        std::int64_t n = 0;
+        file_.read([&](ListDirected::Read& r) { r.whole(n, name, 0, 1'000'000); });
+        return n;
+    }
+    std::vector<double> axis(std::string_view name) {
+        std::vector<double> all;
+        file_.read([&](ListDirected::Read& r) {
+            std::int64_t n = 0;
+            r.whole(n, name, 1, 1'000'000);
+            for (; n > 0; --n) all.push_back(real(r, name));
+        });
+        return all;
+    }
+    std::vector<Arrival> arrivals(double frequency_hz) {
+        const double db_per_s = 2 * std::numbers::pi * frequency_hz * 20 / std::numbers::ln10;
+        std::vector<Arrival> all;
+        for (std::int64_t n = count("the number of arrivals"); n > 0; --n) {
+            Arrival& a = all.emplace_back();
+            file_.read([&](ListDirected::Read& r) {
+                a.amplitude = real(r, "amplitude");
+                a.phase_deg = real(r, "phase");
+                a.delay_s = real(r, "delay");
+                a.absorption_db = -real(r, "imaginary delay") * db_per_s + 0.0;
+                a.launch_deg = real(r, "launch angle");
+                a.arrival_deg = real(r, "arrival angle");
+                a.surface_bounces = bounces(r);
+                a.bottom_bounces = bounces(r);
+            });
+        }
+        return all;
+    }
+    static std::uint32_t bounces(ListDirected::Read& r) {
+        std::int64_t n = 0;
+        r.whole(n, "bounces", 0, 1'000'000);
+        return static_cast<std::uint32_t>(n);
+    }
+
+    ListDirected file_;
+};
+
+}  // namespace
+
+ArrFile read_arr(std::string_view text) { return ArrReader(text).read(); }
 
 std::string write_arr(const ArrFile& file, ArrForm form) {
     return form == ArrForm::text ? write(file, TextForm()) : write(file, BinaryForm());

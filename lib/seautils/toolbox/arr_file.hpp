@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace seautils::toolbox {
@@ -26,6 +27,9 @@ enum class ArrForm : std::uint8_t {
 /// The file; absorption by the water is the imaginary part of each delay.
 /// Layout: section 11 of the project's acoustics specification.
 std::string write_arr(const ArrFile& file, ArrForm form);
+
+/// Reads the text form. @throws DataError  says the line, and what is wrong there
+ArrFile read_arr(std::string_view text);
 
 }  // namespace seautils::toolbox
 

@@ -103,18 +103,20 @@ private:
             refuse(fmt::format("has {} ranges in a record of {} bytes", n, record_));
         for (std::size_t k = 0; k < n; ++k)
             all[k] = little_endian<double>(bytes_, 9 * record_ + 8 * k);
-        if (grow(all)) return all;
+        if (is_axis(all)) return all;
         for (std::size_t k = 0; k < n; ++k)
             all[k] = double{little_endian<float>(bytes_, 9 * record_ + 4 * k)};
-        if (!grow(all)) refuse("has ranges that do not grow");
+        if (!is_axis(all)) refuse("has ranges in no order");
         return all;
     }
 
-    /// Of one range, that it is one which a range may be.
-    static bool grow(const std::vector<double>& x) {
+    /// Whether numbers are such as ranges (or phase speeds) are, and grow or fall.
+    static bool is_axis(const std::vector<double>& x) {
+        const bool falls = x.size() > 1 && x[1] < x[0];
         for (std::size_t k = 0; k < x.size(); ++k) {
-            const bool is_range = std::fabs(x[k]) < 1e9 && (x[k] == 0 || std::fabs(x[k]) > 1e-9);
-            if (!is_range || (k > 0 && x[k] <= x[k - 1])) return false;
+            const bool is_sane = std::fabs(x[k]) < 1e10 && (x[k] == 0 || std::fabs(x[k]) > 1e-9);
+            if (!is_sane) return false;
+            if (k > 0 && (falls ? x[k] >= x[k - 1] : x[k] <= x[k - 1])) return false;
         }
         return true;
     }

@@ -14,7 +14,7 @@ struct ShdFile {
     std::string title;
     double frequency_hz = 0;
     std::vector<float> source_depth_m, receiver_depth_m;
-    std::vector<double> range_m;
+    std::vector<double> range_m;  ///< of a .grn file: phase speeds in m/s
     /// [source][depth][range], re 1 at 1 m, in the Toolbox's time convention; 0: no energy, or no value. Of an incoherent
     /// sum its magnitude alone means something.
     std::vector<std::complex<float>> pressure;
@@ -28,7 +28,7 @@ enum class ShdLayout : std::uint8_t { of_2022, of_2023 };
 /// @throws DataError  it would be larger than 2^31 bytes
 std::string write_shd(const ShdFile& file, ShdLayout layout);
 
-/// Reads either layout: whichever gives ranges that grow.
+/// Reads either layout: whichever gives ranges in an order.
 /// @throws DataError  it is cut, or holds what ShdFile cannot: says what, and the offset
 ShdFile read_shd(std::string_view bytes);
 
