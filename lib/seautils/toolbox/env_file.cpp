@@ -219,8 +219,10 @@ private:
             if (row_.shear_mps != 0)
                 throw DataError(fmt::format("line {}: the water has a shear speed of {} m/s", line,
                                             row_.shear_mps));
-            changes = changes || (!w.profile.empty() && (row_.density != before.density ||
-                                                         row_.attenuation != before.attenuation));
+            changes = changes ||
+                      (!w.profile.empty() &&
+                       (row_.density != before.density ||
+                        std::fabs(db_per_m(row_) - db_per_m(before)) > 1e-6 * db_per_m(before)));
             absorbs = absorbs || row_.attenuation != 0;
             if (w.profile.empty()) first_row(w);
             w.profile.push_back({row_.depth_m, row_.speed_mps});
@@ -234,12 +236,16 @@ private:
         if (option_[0] == 'Q') speed_mesh();
     }
 
+    double db_per_m(const Row& r) const {
+        return per_wavelength(r.attenuation, r.speed_mps) * result_.environment.frequency_hz /
+               r.speed_mps;
+    }
+
     void first_row(pg::WaterColumn& w) const {
         w.density_gcm3 = row_.density;
         if (row_.attenuation == 0 || option_[3] != ' ') return;
         w.absorption.model = pg::AbsorptionModel::fixed;
-        w.absorption.db_per_km = per_wavelength(row_.attenuation, row_.speed_mps) *
-                                 result_.environment.frequency_hz / row_.speed_mps * 1000;
+        w.absorption.db_per_km = db_per_m(row_) * 1000;
     }
 
     void speed_mesh() {
