@@ -13,5 +13,8 @@ int main(int argc, char** argv) {
     app.input_formats({"auto", "case", "env", "ndjson", "delimited"});
     app.output_formats({"ndjson", "csv", "delimited", "shd", "arr", "arr-binary"});
     options.add(app.options());
-    return app.main(argc, argv, [&](cli::Io& io) { tools::TlSession(io, options).run(); });
+    return app.main(argc, argv, [&](cli::Io& io) {
+        options.settle();
+        tools::TlSession(io, options).run();
+    });
 }

@@ -2,6 +2,7 @@
 #ifndef SEAUTILS_TOOLS_TL_OPTIONS_HPP
 #define SEAUTILS_TOOLS_TL_OPTIONS_HPP
 
+#include "gnuplot.hpp"
 #include "tl_request.hpp"
 
 #include "seautils/cli/app.hpp"
@@ -48,6 +49,8 @@ public:
         number(app, "--engine-timeout", timeout_s_, "Of another's engine (60)", 0.1, 86400,
                "SECONDS");
         whole(app, "--engine-memory", memory_mib_, "It may take (2048)", 16, 1'048'576, "MIB");
+        app.add_option("--plot", plot_, "Draw the last result into a .png or .svg file")
+            ->option_text("FILE");
         app.add_option("--base", base, "CASE.json or .env that requests begin with")
             ->option_text("FILE");
     }
@@ -67,6 +70,10 @@ public:
         task.arrivals = true;
         task.loss = false;
     }
+
+    /// Checks what the command line has left to check. @throws Error(usage)
+    void settle() { picture_ = Gnuplot::target(plot_); }
+    const Gnuplot::Target& picture() const { return picture_; }
 
     toolbox::ShdLayout shd_layout() const {
         return shd_format_ == "2022" ? toolbox::ShdLayout::of_2022 : toolbox::ShdLayout::of_2023;
@@ -136,6 +143,8 @@ private:
         bounded(app, option, value, what, least, most, text);
     }
 
+    std::string plot_;
+    Gnuplot::Target picture_;
     std::optional<std::string> sum_, beam_, engine_, shd_format_;
     std::optional<std::uint32_t> beams_, threads_, jobs_, memory_mib_;
     std::optional<double> least_amplitude_, timeout_s_;

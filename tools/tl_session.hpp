@@ -4,6 +4,7 @@
 
 #include "tl_answer.hpp"
 #include "tl_options.hpp"
+#include "tl_plot.hpp"
 #include "tl_request.hpp"
 #include "tl_schema.hpp"
 #include "tl_toolbox.hpp"
@@ -45,6 +46,7 @@ public:
             else
                 answer_requests(file, form);
         }
+        if (last_) TlPlot::draw(options_.picture(), *last_);
     }
 
 private:
@@ -128,6 +130,7 @@ private:
                 if (!results.back().error.empty()) throw DataError(results.back().error);
                 for (const std::string& remark : results.back().field.basis.remarks)
                     io_.inform(name_of(file) + ": " + remark);
+                if (options_.picture().is_wanted()) last_ = results.back();
                 if (is_toolbox_file()) continue;
                 write(results.back());
                 results.pop_back();
@@ -215,6 +218,7 @@ private:
     }
 
     void write(const TlResult& result) {
+        if (options_.picture().is_wanted() && result.error.empty()) last_ = result;
         std::string& out = io_.out.buffer();
         if (io_.format == "csv") {
             if (result.error.empty() && result.task->loss)
@@ -247,6 +251,7 @@ private:
     cli::Io& io_;
     const TlOptions& options_;
     std::optional<TlKnown> known_;
+    std::optional<TlResult> last_;  ///< for the picture
     TlComputer computer_;
     TlSchema schema_;
     schema::JsonReader json_;
