@@ -5,6 +5,8 @@
 #include "tl_request.hpp"
 #include "tl_schema.hpp"
 
+#include "seautils/propagation/absorption.hpp"
+#include "seautils/propagation/engine.hpp"
 #include "seautils/propagation/spread.hpp"
 #include "seautils/schema/number_text.hpp"
 #include "seautils/schema/values.hpp"
@@ -39,12 +41,6 @@ inline std::string_view name_of(pg::Sum sum) {
 inline std::string_view name_of(pg::Beam beam) {
     return beam == pg::Beam::gaussian ? "gaussian" : "hat";
 }
-inline std::string_view name_of(pg::AbsorptionModel model) {
-    static constexpr std::string_view names[] = {"none", "thorp-jkps", "francois-garrison",
-                                                 "ainslie-mccolm", "fixed"};
-    return names[static_cast<std::size_t>(model)];
-}
-
 /// A loss in dB with two decimals; nothing where there is none.
 inline void append_hundredths(std::string& out, float db) {
     if (std::isnan(db)) return;
@@ -212,12 +208,18 @@ private:
         text(f::why, b.why);
         text(f::sum, name_of(task.options.sum));
         if (b.engine == pg::Engine::rays) text(f::beam, name_of(task.options.beam));
-        text(f::absorption, name_of(task.environment.water.absorption.model));
+        const pg::Absorption& absorption = task.environment.water.absorption;
+        const pg::AbsorptionRate rate = absorption_rate(absorption, task.environment.frequency_hz);
+        text(f::absorption, pg::name(absorption.model));
+        real(block + f::absorption_db_per_km, rate.db_per_km);
         if (b.beams > 0) whole(block + f::beams, b.beams);
         if (b.modes > 0) whole(block + f::modes, b.modes);
         if (b.estimated_error_db > 0) real(block + f::estimated_error_db, b.estimated_error_db);
-        for (const std::string& remark : b.remarks)
+        const auto say = [&](std::string_view remark) {
             values_.set_text(values_.append_element(block + f::remark), remark);
+        };
+        for (const std::string& remark : b.remarks) say(remark);
+        if (rate.extrapolated) say("absorption is extrapolated: outside the range of its formula");
     }
 
     TlSchema schema_;

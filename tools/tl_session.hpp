@@ -205,7 +205,7 @@ private:
             pg::check(task->environment);
         } catch (const DataError& e) {
             known_ = std::move(before);
-            result.error = e.what();
+            result.error = in_words_of_requests(e.what());
         }
         task->place = std::move(place);
         result.task = std::move(task);

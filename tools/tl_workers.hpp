@@ -16,11 +16,30 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
 namespace seautils::tools {
+
+/// What the library says of a field, by the name that requests and files have for it.
+inline std::string in_words_of_requests(std::string what) {
+    static constexpr std::pair<std::string_view, std::string_view> names[] = {
+        {"surface_line", "altimetry"},
+        {"bottom_line", "bathymetry"},
+        {"water.mesh", "mesh"},
+        {"water.profile", "profile"},
+        {"water.absorption", "absorption"},
+        {"water.density_gcm3", "water_density_gcm3"},
+        {"fan.least_deg", "fan.min_deg"},
+        {"fan.most_deg", "fan.max_deg"},
+        {"source.pattern[", "beam pattern["},
+    };
+    for (const auto& [from, to] : names)
+        if (what.starts_with(from)) return what.replace(0, from.size(), to);
+    return what;
+}
 
 /// Computes tasks one after another. What it keeps from one to the next belongs here.
 class TlComputer {
@@ -36,7 +55,7 @@ public:
         } catch (const std::bad_alloc&) {
             result.error = "out of memory";
         } catch (const std::exception& e) {
-            result.error = e.what();
+            result.error = in_words_of_requests(e.what());
         }
         return result;
     }

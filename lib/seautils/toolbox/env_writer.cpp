@@ -1,6 +1,7 @@
 #include "seautils/toolbox/env_writer.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/propagation/absorption.hpp"
 
 #include <fmt/format.h>
 
@@ -133,9 +134,6 @@ private:
                 return 'T';
             case pg::AbsorptionModel::francois_garrison:
                 return 'F';
-            case pg::AbsorptionModel::ainslie_mccolm:
-                throw DataError(
-                    "absorption 'ainslie-mccolm' is not known to the Acoustics Toolbox");
             default:
                 return ' ';
         }
@@ -178,8 +176,11 @@ private:
     }
 
     void profile() {
-        const pg::Absorption& a = e_.water.absorption;
-        const double db_per_m = a.model == pg::AbsorptionModel::fixed ? a.db_per_km / 1000 : 0;
+        // What the Toolbox has no letter for stands in the rows.
+        const double db_per_m =
+            letter_of_absorption() == ' '
+                ? absorption_db_per_km(e_.water.absorption, e_.frequency_hz) / 1000
+                : 0;
         line("0 {} {:.12g}", e_.surface.roughness_m, depth_m_);
         const std::vector<pg::SpeedPoint> all = points();
         for (const pg::SpeedPoint& point : all)
