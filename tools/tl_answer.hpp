@@ -122,6 +122,7 @@ public:
             return values_;
         }
         const TlTask& task = *result.task;
+        if (!task.loss && !task.arrivals) return values_;
         if (task.loss) {
             reals(field::answer::depth_m, task.environment.receivers.depth_m);
             reals(field::answer::range_m, task.environment.receivers.range_m);

@@ -80,8 +80,10 @@ public:
         merge_options(request);
     }
 
-    /// What is to be computed now. @throws DataError  something was never said, or there are too many cells
+    /// What is to be computed now; nothing may be wanted.
+    /// @throws DataError  something that is needed was never said, or there are too many cells
     TlTask task() const {
+        if (!task_.loss && !task_.arrivals) return task_;
         static constexpr std::pair<unsigned, const char*> needed[] = {
             {frequency, "frequency_hz"},
             {source, "source.depth_m"},

@@ -110,7 +110,12 @@ private:
     static toolbox::Companion beside(const std::string& file) {
         const std::string root = file.substr(0, file.size() - (file.ends_with(".env") ? 4 : 0));
         return [root](const std::string& extension) {
-            return stream::read_whole_file(root + "." + extension, most_bytes);
+            std::optional<std::string> text =
+                stream::read_whole_file(root + "." + extension, most_bytes);
+            if (text && text->size() >= most_bytes)
+                throw DataError(fmt::format("the .{} file is not shorter than {} bytes", extension,
+                                            most_bytes));
+            return text;
         };
     }
 
@@ -202,7 +207,7 @@ private:
             if (id.present) task->id = static_cast<std::uint32_t>(id.u);
             known_->merge(values_);
             *task = known_->task();
-            pg::check(task->environment);
+            if (task->loss || task->arrivals) pg::check(task->environment);
         } catch (const DataError& e) {
             known_ = std::move(before);
             result.error = in_words_of_requests(e.what());
