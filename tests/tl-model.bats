@@ -116,9 +116,9 @@ END
         '[10,500,["amplitude","phase_deg","delay_s","delay_imag_s","launch_deg","arrival_deg","n_surface","n_bottom","n_caustic"]]'
     # sqrt(500² + 15²) and sqrt(500² + 35²) m at 1500 m/s; the latter by the surface
     # shellcheck disable=SC2046
-    assert_near 1e-8 $(jq '.arrivals[0:2][] | .[2]' <<< "$output") = 0.333483300 0.334149102
+    assert_near 1e-8 $(jq '.arrivals[0:2][] | .[2]' <<< "$output") = 0.3334832996 0.3341490020
     # shellcheck disable=SC2046
-    assert_near 1e-6 $(jq '.arrivals[0:2][] | .[0]' <<< "$output") = 0.001999100 0.001995116
+    assert_near 1e-6 $(jq '.arrivals[0:2][] | .[0]' <<< "$output") = 0.001999101 0.001995118
     assert_equal "$(jq -c '.arrivals[0:2][] | .[6:8]' <<< "$output" | xargs)" '[0,0] [1,0]'
     # shellcheck disable=SC2046
     assert_near 1e-4 $(jq '.arrivals[0:2][] | .[4]' <<< "$output") = -1.718358 -4.004173
@@ -173,7 +173,7 @@ END
 {"receivers":{"ranges":{"start_m":1,"stop_m":2000,"count":2000},"depths":{"start_m":1,"stop_m":500,"count":500}}}|receivers of 500 depths and 2000 ranges are 1000000 cells, which is outside 1 to 200000
 {"engine":"magic"}|engine 'magic' is none of auto, rays, modes, wavenumber
 {"min_amp":2}|min_amp 2 is outside 0 to 1
-{"sum":"LOUD"}|sum 'LOUD' is not a value of seautils.TlRequest.Sum
+{"sum":"LOUD"}|sum 'LOUD' is not in enum seautils.TlRequest.Sum
 {"frequenzy_hz":1}|field 'frequenzy_hz' is not in message seautils.TlRequest (did you mean 'frequency_hz'?)
 {"bottom":{"grain_phi":12}}|grain_phi 12 is outside -1 to 9
 {"surface":{"magnitude":[1],"grazing_deg":[0],"phase_deg":[]}}|surface.grazing_deg has 1 value, surface.phase_deg 0
@@ -364,9 +364,9 @@ lloyd_env() {
     run_quiet tl-model --engine rays --arrivals --plot arrivals.png lloyd.json
     assert_equal "$(head -c 4 arrivals.png | tail -c 3)" PNG
     assert_says 64 "option --plot: 'a.gif' ends neither in .png nor .svg" tl-model --plot a.gif lloyd.json
-    mkdir -p bare
-    ln -sf "$(command -v tl-model)" bare/
-    PATH=$PWD/bare assert_says 69 'option --plot needs gnuplot (package gnuplot-nox)' tl-model --engine rays --plot a.svg lloyd.json
+    mkdir bare
+    assert_says 69 'option --plot needs gnuplot (package gnuplot-nox)' \
+        env PATH="$PWD/bare" "$(command -v tl-model)" --engine rays --plot a.svg lloyd.json
 }
 
 @test "tl-model: an engine of others that behaves is taken at its word" {

@@ -142,9 +142,9 @@ private:
                     add(s, "{:.6f} {:.3f}\n", 1000 * (a.delay_s - receiver.arrivals[0].delay_s),
                         a.absorption_db - 20 * std::log10(a.amplitude));
             s += "END\n";
-            add(list, "{}$a{} using 1:2 with linespoints pt {} title '{} m deep, {} m away' {}",
-                shown == 0 ? "" : ", ", shown, shown + 1, receiver.depth_m, receiver.range_m,
-                Gnuplot::style(shown));
+            add(list, "{}$a{} using 1:2 with linespoints title '{} m deep, {} m away' {} pt {}",
+                shown == 0 ? "" : ", ", shown, receiver.depth_m, receiver.range_m,
+                Gnuplot::style(shown), shown + 1);
             ++shown;
         }
         add(s, "set title '{}' noenhanced\nset grid\nset key outside\n",

@@ -332,12 +332,20 @@ private:
                 throw DataError(std::string("engine ") + e.what());
             }
         }
-        request.number(f::min_amp, task_.options.least_amplitude);
-        request.number(f::baffle_from_deg, task_.options.baffle_from_deg);
-        request.number(f::baffle_to_deg, task_.options.baffle_to_deg);
+        bounded(request, f::min_amp, "min_amp", 0, 1, task_.options.least_amplitude);
+        bounded(request, f::baffle_from_deg, "baffle_from_deg", -180, 180,
+                task_.options.baffle_from_deg);
+        bounded(request, f::baffle_to_deg, "baffle_to_deg", -180, 180, task_.options.baffle_to_deg);
         task_.smooth = request.flag(f::smooth).value_or(task_.smooth);
         task_.loss = request.flag(f::loss).value_or(task_.loss);
         task_.arrivals = request.flag(f::arrivals).value_or(task_.arrivals);
+    }
+
+    static void bounded(const Part& request, std::uint32_t f, const char* name, double least,
+                        double most, double& x) {
+        request.number(f, x);
+        if (!(x >= least && x <= most))
+            throw DataError(fmt::format("{} {} is outside {} to {}", name, x, least, most));
     }
 
     TlTask start_;
