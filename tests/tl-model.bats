@@ -175,7 +175,7 @@ END
 {"min_amp":2}|min_amp 2 is outside 0 to 1
 {"sum":"LOUD"}|sum 'LOUD' is not in enum seautils.TlRequest.Sum
 {"frequenzy_hz":1}|field 'frequenzy_hz' is not in message seautils.TlRequest (did you mean 'frequency_hz'?)
-{"bottom":{"grain_phi":12}}|grain_phi 12 is outside -1 to 9
+{"bottom":{"grain_phi":12}}|bottom.grain_phi 12 is outside -1 to 9
 {"surface":{"magnitude":[1],"grazing_deg":[0],"phase_deg":[]}}|surface.grazing_deg has 1 value, surface.phase_deg 0
 END
 }

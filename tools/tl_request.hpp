@@ -216,7 +216,10 @@ private:
             merge_boundary(*b, e.bottom);
             if (b->has(field::boundary::sound_speed_mps) || b->has(field::boundary::kind))
                 grain_.reset();
-            if (const auto phi = b->number(field::boundary::grain_phi)) grain_ = phi;
+            if (b->has(field::boundary::grain_phi)) {
+                grain_ = 0;
+                bounded(*b, field::boundary::grain_phi, "bottom.grain_phi", -1, 9, *grain_);
+            }
             said_ |= bottom;
         }
         if (const auto l = request.part(field::request::altimetry, "altimetry"))
