@@ -232,10 +232,32 @@ $whole
 {"id":6,"bottom":{"kind":"TABLE","shear_speed_mps":0,"attenuation_db_per_wavelength":0,"shear_attenuation_db_per_wavelength":0,"roughness_m":0,"grazing_deg":[0,90],"magnitude":[1,1],"phase_deg":[0,0]}}
 {"id":7,"bottom":{"grain_phi":2},"fan":{"min_deg":-60,"max_deg":60,"beams":100}}
 {"id":8,"sum":"INCOHERENT","beam":"HAT","engine":"rays","min_amp":0.01,"baffle_from_deg":0,"baffle_to_deg":0,"smooth":true,"loss":true,"arrivals":true}
+{"id":9,"levels":{"source_level_db":1,"bandwidth_hz":1,"noise_db":1,"wind_mps":1,"beaufort":1,"shipping":1,"noise_fades":true,"array_gain_db":1,"threshold_db":1,"noise_depth_m":[0],"noise_at_depth_db":[1]}}
 END
     run_quiet tl-model --engine rays requests
     assert_equal "$(jq -c 'select(.error)' <<< "$output")" ''
     assert_equal "$(tail -1 <<< "$output" | jq -c '[(.arrivals | length), (.arrivals[0] | .delay_spread_s >= 0, .within_20db >= 1)]')" '[2,true,true]'
+}
+
+@test "tl-model: levels give signal to noise ratios" {
+    # wind of 5 m/s and half the ships at 25.12 kHz: 38.51 dB re 1 µPa²/Hz (check value); 4160 Hz are 36.19 dB
+    cat > requests << END
+$whole
+{"frequency_hz":25120,"levels":{"source_level_db":190,"wind_mps":5,"bandwidth_hz":4160}}
+{"levels":{"noise_db":50,"bandwidth_hz":1,"threshold_db":10,"array_gain_db":3}}
+END
+    run_quiet tl-model --engine rays requests
+    assert_equal "$(head -1 <<< "$output" | jq -c .snr_db)" null
+    sed -n 2p <<< "$output" > windy
+    assert_near 0.01 "$(jq .noise_in_band_db windy)" = 74.70
+    # shellcheck disable=SC2046
+    assert_near 0.02 $(jq '.snr_db[]' windy) = $(jq '190 - .tl_db[] - 74.70' windy)
+    assert_equal "$(jq -c .signal_excess_db windy)" null
+    tail -1 <<< "$output" > excess
+    # shellcheck disable=SC2046
+    assert_near 0.011 $(jq '.signal_excess_db[]' excess) = $(jq '190 - .tl_db[] - 50 + 3 - 10' excess)
+    echo "${whole/\"id\":7/\"levels\":{\"shipping\":2\}}" > requests
+    assert_says 1 'requests:1: levels.shipping 2 is outside 0 to 1' tl-model requests
 }
 
 @test "tl-model: --base is known before the first request" {

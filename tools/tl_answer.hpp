@@ -127,6 +127,7 @@ public:
             reals(field::answer::depth_m, task.environment.receivers.depth_m);
             reals(field::answer::range_m, task.environment.receivers.range_m);
             losses(result.field.loss_db);
+            if (task.levels) levels(task, result.field.loss_db);
         }
         for (const pg::ReceiverArrivals& receiver : result.arrivals) paths(receiver);
         basis(task, result.field.basis);
@@ -160,10 +161,27 @@ private:
         list(slot, all, [](double x) { return x; });
     }
     /// To hundredths: the nearest binary32 number.
+    static double hundredths(double x) {
+        return static_cast<double>(static_cast<float>(std::round(x * 100) / 100));
+    }
     void losses(const std::vector<float>& all) {
-        list(field::answer::tl_db, all, [](float x) {
-            return static_cast<double>(static_cast<float>(std::round(double{x} * 100) / 100));
-        });
+        list(field::answer::tl_db, all, [](float x) { return hundredths(double{x}); });
+    }
+
+    void levels(const TlTask& task, const std::vector<float>& loss_db) {
+        const pg::Environment& e = task.environment;
+        const pg::SonarLevels levels = task.levels->in(e);
+        std::vector<double> snr_db(loss_db.size());
+        for (std::size_t k = 0; k < snr_db.size(); ++k)
+            snr_db[k] = signal_to_noise_db(levels, double{loss_db[k]},
+                                           e.receivers.depth_m[k / e.receivers.range_m.size()]);
+        list(field::answer::snr_db, snr_db, hundredths);
+        if (const auto& least = task.levels->threshold_db)
+            list(field::answer::signal_excess_db, snr_db,
+                 [&](double x) { return hundredths(x - *least); });
+        real(field::answer::noise_in_band_db, noise_in_band_db(levels, 0));
+        if (const auto depth_m = TlLevels::critical_depth_of(e))
+            real(field::answer::critical_depth_m, *depth_m);
     }
 
     void paths(const pg::ReceiverArrivals& receiver) {

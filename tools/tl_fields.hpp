@@ -45,6 +45,21 @@ enum : std::uint32_t { depth_m, range_m, depths, ranges };
 namespace fan {
 enum : std::uint32_t { min_deg, max_deg, beams };
 }
+namespace levels {
+enum : std::uint32_t {
+    source_level_db,
+    bandwidth_hz,
+    noise_db,
+    wind_mps,
+    beaufort,
+    shipping,
+    noise_fades,
+    array_gain_db,
+    threshold_db,
+    noise_depth_m,
+    noise_at_depth_db,
+};
+}
 namespace request {
 enum : std::uint32_t {
     id,
@@ -72,6 +87,7 @@ enum : std::uint32_t {
     smooth,
     loss,
     arrivals,
+    levels,
 };
 }
 namespace basis {
@@ -110,7 +126,20 @@ enum : std::uint32_t {
 };
 }
 namespace answer {
-enum : std::uint32_t { id, error, depth_m, range_m, tl_db, arrivals, basis, source_depth_m };
+enum : std::uint32_t {
+    id,
+    error,
+    depth_m,
+    range_m,
+    tl_db,
+    arrivals,
+    basis,
+    source_depth_m,
+    snr_db,
+    signal_excess_db,
+    noise_in_band_db,
+    critical_depth_m,
+};
 }
 
 }  // namespace field

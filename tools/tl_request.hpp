@@ -4,10 +4,10 @@
 
 #include "ssp_schema.hpp"
 #include "tl_fields.hpp"
+#include "tl_part.hpp"
+#include "tl_task.hpp"
 
 #include "seautils/core/error.hpp"
-#include "seautils/core/text.hpp"
-#include "seautils/propagation/engine.hpp"
 #include "seautils/propagation/reflection.hpp"
 #include "seautils/schema/values.hpp"
 
@@ -16,43 +16,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace seautils::tools {
-
-namespace pg = propagation;
-
-inline pg::Sum parse_sum(std::string_view name) {
-    if (name == "incoherent") return pg::Sum::incoherent;
-    if (name == "semicoherent") return pg::Sum::semi_coherent;
-    if (name == "coherent") return pg::Sum::coherent;
-    throw DataError(quote(name) + " is none of incoherent, semicoherent, coherent");
-}
-inline pg::Beam parse_beam(std::string_view name) {
-    if (name == "gaussian") return pg::Beam::gaussian;
-    if (name == "hat") return pg::Beam::hat;
-    throw DataError(quote(name) + " is none of gaussian, hat");
-}
-inline pg::Engine parse_engine(std::string_view name) {
-    if (name == "auto") return pg::Engine::automatic;
-    if (name == "rays") return pg::Engine::rays;
-    if (name == "modes") return pg::Engine::modes;
-    if (name == "wavenumber") return pg::Engine::wavenumber;
-    throw DataError(quote(name) + " is none of auto, rays, modes, wavenumber");
-}
-
-/// What is to be computed.
-struct TlTask {
-    pg::Environment environment;
-    std::optional<pg::Receivers> arrivals_at;  ///< else at the grid
-    pg::FieldOptions options;
-    pg::Engine engine = pg::Engine::automatic;
-    std::string program;  ///< somebody else's engine in place of ours
-    bool smooth = false, loss = true, arrivals = false;
-    std::optional<std::uint32_t> id;
-    std::string place;  ///< of the request, for messages
-};
 
 /// Everything that requests have said so far.
 class TlKnown {
@@ -71,13 +38,17 @@ public:
     /// Merges a request.
     /// @throws DataError  names the field; what is known then is not to be used any more
     void merge(const schema::Values& values) {
-        Part request{values, 0, ""};
+        TlPart request{values, 0, ""};
         if (request.flag(field::request::reset).value_or(false)) *this = TlKnown(start_, is_whole_);
         task_.id = request.whole(field::request::id);
         merge_water(request);
         merge_boundaries(request);
         merge_source(request);
         merge_options(request);
+        if (const auto levels = request.part(field::request::levels, "levels")) {
+            if (!task_.levels) task_.levels.emplace();
+            task_.levels->merge(*levels);
+        }
     }
 
     /// What is to be computed now; nothing may be wanted.
@@ -119,49 +90,7 @@ private:
         all = 127,
     };
 
-    /// A message in the values, and the path to it.
-    struct Part {
-        const schema::Values& values;
-        std::uint32_t block;
-        std::string path;
-
-        const schema::Slot& operator[](std::uint32_t f) const { return values[block + f]; }
-        bool has(std::uint32_t f) const { return (*this)[f].present; }
-        std::optional<double> number(std::uint32_t f) const {
-            return has(f) ? std::optional((*this)[f].d) : std::nullopt;
-        }
-        void number(std::uint32_t f, double& x) const {
-            if (has(f)) x = (*this)[f].d;
-        }
-        std::optional<std::uint32_t> whole(std::uint32_t f) const {
-            return has(f) ? std::optional(static_cast<std::uint32_t>((*this)[f].u)) : std::nullopt;
-        }
-        std::optional<bool> flag(std::uint32_t f) const {
-            return has(f) ? std::optional((*this)[f].i != 0) : std::nullopt;
-        }
-        template <class T>
-        void choice(std::uint32_t f, T& x) const {
-            if (has(f)) x = static_cast<T>((*this)[f].i);
-        }
-        std::optional<Part> part(std::uint32_t f, const std::string& name) const {
-            if (!has(f)) return std::nullopt;
-            return Part{values, static_cast<std::uint32_t>((*this)[f].u), path + name + "."};
-        }
-        std::vector<double> list(std::uint32_t f) const {
-            std::vector<double> out(has(f) ? (*this)[f].aux : 0);
-            for (std::uint32_t k = 0; k < out.size(); ++k)
-                out[k] = values[static_cast<std::uint32_t>((*this)[f].u) + k].d;
-            return out;
-        }
-        /// @throws DataError  lists that belong together differ in length
-        void same(std::size_t n, const char* one, std::size_t m, const char* other) const {
-            if (n == m) return;
-            throw DataError(fmt::format("{}{} has {}, {}{} {}", path, one, counted(n, "value"),
-                                        path, other, m));
-        }
-    };
-
-    void merge_water(const Part& request) {
+    void merge_water(const TlPart& request) {
         pg::WaterColumn& w = task_.environment.water;
         if (const auto p = request.part(field::request::profile, "profile")) merge_profile(*p);
         if (const auto m = request.part(field::request::mesh, "mesh")) {
@@ -186,7 +115,7 @@ private:
         a->number(field::absorption::db_per_km, w.absorption.db_per_km);
     }
 
-    void merge_profile(const Part& p) {
+    void merge_profile(const TlPart& p) {
         pg::WaterColumn& w = task_.environment.water;
         const std::vector<double> depth_m = p.list(SspSchema::depth_m),
                                   speed_mps = p.list(SspSchema::sound_speed_mps);
@@ -205,7 +134,7 @@ private:
         return points;
     }
 
-    void merge_boundaries(const Part& request) {
+    void merge_boundaries(const TlPart& request) {
         pg::Environment& e = task_.environment;
         if (const auto s = request.part(field::request::surface, "surface")) {
             merge_boundary(*s, e.surface);
@@ -218,7 +147,7 @@ private:
                 grain_.reset();
             if (b->has(field::boundary::grain_phi)) {
                 grain_ = 0;
-                bounded(*b, field::boundary::grain_phi, "bottom.grain_phi", -1, 9, *grain_);
+                b->bounded(field::boundary::grain_phi, "grain_phi", -1, 9, *grain_);
             }
             said_ |= bottom;
         }
@@ -230,7 +159,7 @@ private:
         if (request.has(field::request::bottom_depth_m) || e.bottom_line) said_ |= bottom_depth;
     }
 
-    static void merge_boundary(const Part& p, pg::Boundary& b) {
+    static void merge_boundary(const TlPart& p, pg::Boundary& b) {
         namespace f = field::boundary;
         const bool has_table = p.has(f::magnitude);
         const bool is_material = p.has(f::sound_speed_mps) || p.has(f::grain_phi);
@@ -253,7 +182,7 @@ private:
             b.table.push_back({grazing[k], size[k], phase[k]});
     }
 
-    static std::optional<pg::Line> line_of(const Part& p) {
+    static std::optional<pg::Line> line_of(const TlPart& p) {
         pg::Line line{p.flag(field::line::curved).value_or(false), p.list(field::line::range_m),
                       p.list(field::line::depth_m)};
         p.same(line.range_m.size(), "range_m", line.depth_m.size(), "depth_m");
@@ -269,7 +198,7 @@ private:
         return b;
     }
 
-    void merge_source(const Part& request) {
+    void merge_source(const TlPart& request) {
         pg::Environment& e = task_.environment;
         request.number(field::request::frequency_hz, e.frequency_hz);
         if (request.has(field::request::frequency_hz)) said_ |= frequency;
@@ -293,7 +222,7 @@ private:
         }
     }
 
-    static std::vector<pg::PatternPoint> pattern_of(const Part& s) {
+    static std::vector<pg::PatternPoint> pattern_of(const TlPart& s) {
         const std::vector<double> angle = s.list(field::source::pattern_deg),
                                   level = s.list(field::source::pattern_db);
         s.same(angle.size(), "pattern_deg", level.size(), "pattern_db");
@@ -303,7 +232,7 @@ private:
     }
 
     /// @return whether the request says it
-    static bool axis(const Part& r, std::uint32_t list, std::uint32_t span, const char* name,
+    static bool axis(const TlPart& r, std::uint32_t list, std::uint32_t span, const char* name,
                      std::vector<double>& values) {
         if (r.has(list) && r.has(span))
             throw DataError(
@@ -322,7 +251,7 @@ private:
         return r.has(list) || r.has(span);
     }
 
-    void merge_options(const Part& request) {
+    void merge_options(const TlPart& request) {
         namespace f = field::request;
         static constexpr pg::Sum sums[] = {pg::Sum::incoherent, pg::Sum::semi_coherent,
                                            pg::Sum::coherent};
@@ -335,20 +264,13 @@ private:
                 throw DataError(std::string("engine ") + e.what());
             }
         }
-        bounded(request, f::min_amp, "min_amp", 0, 1, task_.options.least_amplitude);
-        bounded(request, f::baffle_from_deg, "baffle_from_deg", -180, 180,
-                task_.options.baffle_from_deg);
-        bounded(request, f::baffle_to_deg, "baffle_to_deg", -180, 180, task_.options.baffle_to_deg);
+        request.bounded(f::min_amp, "min_amp", 0, 1, task_.options.least_amplitude);
+        request.bounded(f::baffle_from_deg, "baffle_from_deg", -180, 180,
+                        task_.options.baffle_from_deg);
+        request.bounded(f::baffle_to_deg, "baffle_to_deg", -180, 180, task_.options.baffle_to_deg);
         task_.smooth = request.flag(f::smooth).value_or(task_.smooth);
         task_.loss = request.flag(f::loss).value_or(task_.loss);
         task_.arrivals = request.flag(f::arrivals).value_or(task_.arrivals);
-    }
-
-    static void bounded(const Part& request, std::uint32_t f, const char* name, double least,
-                        double most, double& x) {
-        request.number(f, x);
-        if (!(x >= least && x <= most))
-            throw DataError(fmt::format("{} {} is outside {} to {}", name, x, least, most));
     }
 
     TlTask start_;

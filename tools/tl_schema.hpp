@@ -75,6 +75,11 @@ private:
         const auto& sum =
             add_enumeration("seautils.TlRequest.Sum", {"INCOHERENT", "SEMICOHERENT", "COHERENT"});
         const auto& beam = add_enumeration("seautils.TlRequest.Beam", {"GAUSSIAN", "HAT"});
+        const auto& levels = add_message(
+            "seautils.TlLevels",
+            {real("source_level_db"), real("bandwidth_hz"), real("noise_db"), real("wind_mps"),
+             real("beaufort"), real("shipping"), flag("noise_fades"), real("array_gain_db"),
+             real("threshold_db"), reals("noise_depth_m"), reals("noise_at_depth_db")});
         request_ = &add_message("seautils.TlRequest", {whole("id"),
                                                        flag("reset"),
                                                        real("frequency_hz"),
@@ -99,7 +104,8 @@ private:
                                                        real("baffle_to_deg"),
                                                        flag("smooth"),
                                                        flag("loss"),
-                                                       flag("arrivals")});
+                                                       flag("arrivals"),
+                                                       part("levels", levels)});
     }
 
     void add_answer() {
@@ -127,7 +133,11 @@ private:
                                                      {"tl_db", Kind::float32, true},
                                                      part("arrivals", paths, true),
                                                      part("basis", basis),
-                                                     real("source_depth_m")});
+                                                     real("source_depth_m"),
+                                                     {"snr_db", Kind::float32, true},
+                                                     {"signal_excess_db", Kind::float32, true},
+                                                     real("noise_in_band_db"),
+                                                     real("critical_depth_m")});
     }
 
     SspSchema profile_;

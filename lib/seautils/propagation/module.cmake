@@ -21,6 +21,7 @@ seautils_module(NAME propagation
     ray_layers.cpp
     ray_sea.cpp
     ray_tracer.cpp
+    noise.cpp
     rays.cpp
     reflection.cpp
     smooth.cpp
