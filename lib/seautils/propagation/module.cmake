@@ -15,13 +15,13 @@ seautils_module(NAME propagation
     mesh_rows.cpp
     mode_search.cpp
     modes.cpp
+    noise.cpp
     ray_arrivals.cpp
     ray_beam.cpp
     ray_fan.cpp
     ray_layers.cpp
     ray_sea.cpp
     ray_tracer.cpp
-    noise.cpp
     rays.cpp
     reflection.cpp
     smooth.cpp
