@@ -286,7 +286,7 @@ del(.water)|water is not given
 .frequency_hz = "low"|frequency_hz '"low"' is not a number
 .water.profile_z_c[1][1] = null|water.profile_z_c[1][1] 'null' is not a number
 .source.depth_m = -2|source.depth_m -2 is outside 0 to 600 m
-.bottom.type = "mud"|bottom.type 'mud' is none of pressure-release, vacuum, rigid, fluid-halfspace, elastic-halfspace, halfspace, reflection-table
+.bottom.type = "mud"|bottom.type 'mud' is none of pressure-release, vacuum, rigid, fluid-halfspace, elastic-halfspace, halfspace, grain-size, reflection-table
 .receivers.range_m = [5, 4]|receivers.range_m[1] 4 is not more than the 5 before it
 END
     echo '{"frequency_hz": 4,}' > bad.json

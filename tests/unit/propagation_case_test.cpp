@@ -81,6 +81,19 @@ TEST(Case, BoundariesFanAndArrivals) {
     EXPECT_EQ(read_case(changed("\"down\"", "\"up\"")).environment.fan.least_deg, -60);
 }
 
+TEST(Case, SedimentByItsGrain) {
+    const std::string bottom =
+        shelf.substr(shelf.find("\"type\": \"elastic"),
+                     shelf.find("\"bathymetry\"") - shelf.find("\"type\": \"elastic"));
+    const Boundary b =
+        read_case(changed(bottom, R"("type": "grain-size", "depth_m": 100, "grain_size_phi": 4, )"))
+            .environment.bottom;
+    // -0.0014881 · 64 + 0.0213937 · 16 - 0.1382798 · 4 + 1.3425 = 1.0364416 times the 1510 m/s above it
+    EXPECT_NEAR(b.sound_speed_mps, 1510 * 1.0364416, 1e-3);
+    EXPECT_EQ(refusal(changed(bottom, R"("type": "rigid", "depth_m": 100, "grain_size_phi": 4, )")),
+              "bottom.grain_size_phi is for a bottom of type 'grain-size', below a profile");
+}
+
 TEST(Case, WhatIsNotKnownIsRemarked) {
     const Case c = read_case(changed("\"box\"", "\"ice_cover\""));
     EXPECT_TRUE(c.remarks.empty());  // null says nothing

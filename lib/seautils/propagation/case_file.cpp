@@ -3,6 +3,7 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/text.hpp"
 #include "seautils/propagation/json_fields.hpp"
+#include "seautils/propagation/reflection.hpp"
 
 #include <fmt/format.h>
 
@@ -206,7 +207,9 @@ private:
                                                  {"fluid-halfspace", BoundaryKind::half_space},
                                                  {"elastic-halfspace", BoundaryKind::half_space},
                                                  {"halfspace", BoundaryKind::half_space},
+                                                 {"grain-size", BoundaryKind::half_space},
                                                  {"reflection-table", BoundaryKind::table}});
+        if (const auto phi = object.get("grain_size_phi")) return grain(*phi, object, b);
         const bool has_speed = b.kind == BoundaryKind::half_space;
         const auto number = [&](const char* key, double& x) {
             const auto value = object.get(key);
@@ -215,6 +218,7 @@ private:
         if (has_speed) b.sound_speed_mps = object.need("sound_speed_m_s").number();
         number("sound_speed_m_s", b.sound_speed_mps);
         number("shear_speed_m_s", b.shear_speed_mps);
+        number("shear_sound_speed_m_s", b.shear_speed_mps);
         number("density_g_cm3", b.density_gcm3);
         number("attenuation_db_per_wavelength", b.attenuation_db_per_wavelength);
         number("shear_attenuation_db_per_wavelength", b.shear_attenuation_db_per_wavelength);
@@ -222,6 +226,16 @@ private:
         const auto rows = object.get("table_deg_mag_phasedeg");
         if (b.kind == BoundaryKind::table)
             b.table = table(rows ? *rows : object.need("table_deg_mag_phasedeg"));
+    }
+
+    /// A sediment below the water that is known by then.
+    void grain(const Value& phi, Object& object, Boundary& b) {
+        const WaterColumn& w = result_.environment.water;
+        if (b.kind != BoundaryKind::half_space || w.profile.empty())
+            phi.refuse("is for a bottom of type 'grain-size', below a profile");
+        const double roughness_m = object.number("roughness_m", 0);
+        b = grain_half_space(phi.number(), w.profile.back().sound_speed_mps, w.density_gcm3);
+        b.roughness_m = roughness_m;
     }
 
     void surface(const std::optional<Value>& value) {
