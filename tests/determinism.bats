@@ -5,7 +5,7 @@ setup() {
     load test_helper
     cd "$BATS_TEST_TMPDIR" || return
     cp -r "$BATS_TEST_DIRNAME/data/schemas"/. "$SEAUTILS_ROOT/examples" "$SEAUTILS_ROOT/schemas" .
-    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log,track.csv,cast.csv,losses.csv,dive.ndjson} .
+    cp "$SEAUTILS_ROOT"/man/examples/{queues.conf,link.ndjson,modem.log,track.csv,cast.csv,losses.csv,dive.ndjson,mirror.json,requests.ndjson} .
     poscode encode --datum 60,5 track.csv > track.hex
     printf %s 'correct horse' > passphrase
     awk 'BEGIN { print "depth_m,received,tl_db"; for (k = 0; k < 500; ++k) print k * 7 % 101, k * k % 3 == 0, 60 + k % 47 }' | tr ' ' , > link.csv
@@ -59,6 +59,9 @@ ssp -c ssp.conf --climatology cast.csv -v yoyo.csv
 ssp --split leg --formula del-grosso -f csv yoyo.csv
 queue-sched -c queues.conf --clock input --explain --stats link.ndjson
 tdma-slot --slot src=1,length=15 --slot src=2,length=20,kind=ping,dest=1 --id 2 --from 2024-05-01T23:00:00Z --to 2024-05-02T01:00:00Z
+tl-model --engine rays --threads 3 --sum coherent -f csv mirror.json
+tl-model --engine rays --arrivals mirror.json
+tl-model --engine rays --jobs 3 -v requests.ndjson
 tdma-slot --subsets 3 --runs 5 --p-collide 0.7 --limit 1000 --seed 9
 END
 }

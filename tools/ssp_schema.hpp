@@ -2,17 +2,16 @@
 #ifndef SEAUTILS_TOOLS_SSP_SCHEMA_HPP
 #define SEAUTILS_TOOLS_SSP_SCHEMA_HPP
 
+#include "message_table.hpp"
+
 #include "seautils/schema/layout.hpp"
 
 #include <cstdint>
-#include <initializer_list>
-#include <string>
-#include <utility>
 
 namespace seautils::tools {
 
 /// The messages of acoustics.proto, with the numbers that it declares, so that no file has to be read.
-class SspSchema {
+class SspSchema : MessageTable {
 public:
     /// Fields of SoundSpeedProfile, in the order of their declaration.
     enum Field : std::uint32_t {
@@ -43,10 +42,10 @@ public:
         using enum schema::Kind;
         const schema::Layout* stamp =
             &add_message("google.protobuf.Timestamp", {{"seconds", int64}, {"nanos", int32}});
-        const schema::EnumLayout* directions =
-            &add_enumeration("Direction", {"UNSPECIFIED", "DIVE", "CLIMB"});
-        const schema::EnumLayout* extensions =
-            &add_enumeration("Extension", {"NONE", "ISOTHERMAL", "CLIMATOLOGY"});
+        const schema::EnumLayout* directions = &add_enumeration(
+            "seautils.SoundSpeedProfile.Direction", {"UNSPECIFIED", "DIVE", "CLIMB"});
+        const schema::EnumLayout* extensions = &add_enumeration(
+            "seautils.SoundSpeedProfile.Extension", {"NONE", "ISOTHERMAL", "CLIMATOLOGY"});
         const schema::Layout* drops =
             &add_message("seautils.SoundSpeedProfile.Dropped", {{"flagged", uint32},
                                                                 {"incomplete", uint32},
@@ -93,46 +92,6 @@ public:
     const schema::Layout& profile() const { return *profile_; }
 
 private:
-    struct Declared {
-        const char* name;
-        schema::Kind kind;
-        bool repeated = false;
-        const schema::Layout* message = nullptr;
-        const schema::EnumLayout* enumeration = nullptr;
-    };
-
-    const schema::Layout& add_message(const char* full_name,
-                                      std::initializer_list<Declared> fields) {
-        schema::Layout layout;
-        layout.full_name = full_name;
-        for (const Declared& d : fields) {
-            schema::Field f;
-            f.name = d.name;
-            f.number = static_cast<std::int32_t>(layout.fields.size()) + 1;
-            f.kind = d.kind;
-            f.repeated = d.repeated;
-            f.message = d.message;
-            f.enumeration = d.enumeration;
-            const bool text = d.kind == schema::Kind::string || d.kind == schema::Kind::message;
-            f.packed = d.repeated && !text;
-            if (text) f.wire_form = schema::WireForm::length;
-            if (d.kind == schema::Kind::float64) f.wire_form = schema::WireForm::fixed64;
-            f.has_presence = layout.full_name != "google.protobuf.Timestamp";  // that is proto3
-            layout.fields.push_back(std::move(f));
-        }
-        return set_.add(std::move(layout));
-    }
-
-    const schema::EnumLayout& add_enumeration(const std::string& name,
-                                              std::initializer_list<const char*> names) {
-        schema::EnumLayout e;
-        e.full_name = "seautils.SoundSpeedProfile." + name;
-        for (const char* value : names)
-            e.values.push_back({value, static_cast<std::int32_t>(e.values.size())});
-        return set_.add(std::move(e));
-    }
-
-    schema::LayoutSet set_;
     const schema::Layout *sample_ = nullptr, *profile_ = nullptr;
 };
 

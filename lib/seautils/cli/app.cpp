@@ -308,7 +308,8 @@ void App::Impl::settle() {
     if (progress != nullptr && progress->count() > 0) settings.progress = show_progress;
     if (shared.schema && settings.schemas.empty())
         usage("option --schema is required (try --help)");
-    const bool binary = settings.format == "delimited" || settings.format == "raw";
+    const std::string& f = settings.format;
+    const bool binary = f == "delimited" || f == "raw" || f == "shd" || f == "arr-binary";
     if (binary && ::isatty(STDOUT_FILENO) == 1) {
         usage(fmt::format("format {} is binary and not written to a terminal", settings.format));
     }

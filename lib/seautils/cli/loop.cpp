@@ -100,6 +100,7 @@ struct Loop::Impl {
     OnRecord files_record;
     bool has_files = false;
     std::function<void()> inputs_ended, wake, step, wait_hook;
+    const Channel* taken = nullptr;  ///< whose record is being handled, or was last
     std::vector<std::unique_ptr<Channel>> channels;
     std::map<int, std::function<void()>> watched;
     std::map<int, std::function<void()>> signals;
@@ -201,6 +202,7 @@ void Loop::Impl::add_channel(const std::string& name, int fd, Framing framing, O
 
 void Loop::Impl::take(Channel& channel, std::string_view record) {
     if (record.empty() && channel.framing == Framing::lines) return;
+    taken = &channel;
     try {
         channel.record(record);
     } catch (const DataError& e) {
@@ -439,6 +441,10 @@ void Loop::on_signal(int number, std::function<void()> action) {
 }
 
 void Loop::before_wait(std::function<void()> action) { impl_->wait_hook = std::move(action); }
+
+std::string Loop::place() const {
+    return impl_->taken == nullptr ? "" : impl_->taken->source.place(impl_->taken->framing);
+}
 
 void Loop::advance(std::int64_t utc_ns) {
     Impl& a = *impl_;

@@ -35,6 +35,9 @@ public:
     /// Reads FILE... in turn, as Io::for_each does: a DataError that `record` throws is reported at
     /// its place, counted and dropped. A FIFO among them is read with --follow beyond its end.
     void inputs(Framing framing, OnRecord record);
+    /// `file:LINE: ` or `file:record N (byte OFFSET): `, of the record that `record` is called with: for what turns out
+    /// to be wrong later.
+    std::string place() const;
     /// Called when these have ended. Without this, run() returns then.
     void on_inputs_ended(std::function<void()> action);
 

@@ -4,6 +4,7 @@ seautils_module(NAME propagation
     beam_columns.cpp
     beam_intensity.cpp
     beam_pressure.cpp
+    case_file.cpp
     column.cpp
     edge.cpp
     eigenrays.cpp
@@ -14,6 +15,7 @@ seautils_module(NAME propagation
     mesh_rows.cpp
     mode_search.cpp
     modes.cpp
+    noise.cpp
     ray_arrivals.cpp
     ray_beam.cpp
     ray_fan.cpp
@@ -22,8 +24,10 @@ seautils_module(NAME propagation
     ray_tracer.cpp
     rays.cpp
     reflection.cpp
+    smooth.cpp
+    spread.cpp
     wavenumber.cpp
-  DEPENDS core LINK fmt::fmt)
+  DEPENDS core LINK fmt::fmt $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
 
 # Square roots and comparisons become vectors only where nobody asks for errno or traps.
 set_source_files_properties(seautils/propagation/beam_intensity.cpp seautils/propagation/ray_tracer.cpp

@@ -1,0 +1,238 @@
+#include "seautils/toolbox/external.hpp"
+
+#include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
+#include "seautils/toolbox/arr_file.hpp"
+#include "seautils/toolbox/env_writer.hpp"
+#include "seautils/toolbox/green.hpp"
+#include "seautils/toolbox/shd_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace seautils::toolbox {
+
+namespace pg = propagation;
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Program>, 5> programs{
+    {{"bellhop", Program::bellhop},
+     {"bellhopcxx", Program::bellhopcxx},
+     {"kraken", Program::kraken},
+     {"krakenc", Program::krakenc},
+     {"scooter", Program::scooter}}};
+
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+
+std::string name_of(Program program) {
+    return std::string(programs[static_cast<std::size_t>(program)].first);
+}
+
+void write_file(const std::string& path, const std::string& text) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"),
+                                                               std::fclose);
+    if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
+        std::fflush(file.get()) != 0)
+        throw Error(ExitCode::cannot_create, path + ": cannot be written");
+}
+
+/// Empty where there is none.
+std::string read_file(const std::string& path) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+        std::fopen(path.c_str(), "rb"),
+        [](std::FILE* f) { return f == nullptr ? 0 : std::fclose(f); });
+    std::string all;
+    if (!file) return all;
+    for (std::array<char, 65536> block{}; all.size() < most_bytes;) {
+        const std::size_t n = std::fread(block.data(), 1, block.size(), file.get());
+        if (n == 0) break;
+        all.append(block.data(), n);
+    }
+    return all;
+}
+
+/// A run of one or two programs in a folder, where all files are called `sea`.
+class Run {
+public:
+    explicit Run(const ExternalRun& run) : run_(run), folder_(run.temporary) {}
+
+    void feed(const Files& files) {
+        for (const auto& [extension, text] : files) write_file(path(extension), text);
+    }
+
+    /// Runs a program, and gives its result.
+    std::string result_of(const std::string& name, std::vector<std::string> options,
+                          const std::string& extension) {
+        std::remove(path(extension).c_str());
+        options.emplace_back("sea");
+        try {
+            run_program({name, name + ".exe"}, options, folder_.path(), run_.limits);
+        } catch (const DataError& e) {
+            throw DataError(e.what() + complaint());
+        }
+        const std::string said = complaint();
+        if (!said.empty()) throw DataError(name + " failed" + said);
+        std::string result = read_file(path(extension));
+        if (result.empty()) throw DataError(name + " left no result");
+        return result;
+    }
+
+private:
+    std::string path(const std::string& extension) const {
+        return folder_.path() + "/sea." + extension;
+    }
+
+    /// What its log says of a fatal error: the Fortran programs end with status 0 then.
+    std::string complaint() const {
+        const std::string log = read_file(path("prt"));
+        const std::size_t at = log.find("FATAL ERROR");
+        if (at == log.npos) return {};
+        std::string words;
+        std::size_t lines = 0;
+        for (std::size_t begin = at; begin < log.size() && lines < 4; ++lines) {
+            const std::size_t end = std::min(log.find('\n', begin), log.size());
+            const std::string_view line(log.data() + begin, end - begin);
+            const std::size_t first = line.find_first_not_of(" *\t\r");
+            if (lines > 0 && first != line.npos)
+                words.append(words.empty() ? "" : " ").append(line.substr(first));
+            begin = end + 1;
+        }
+        return ": " + quote(words);
+    }
+
+    const ExternalRun& run_;
+    PrivateFolder folder_;
+};
+
+/// Losses of pressures; below the bottom, above the surface and at range 0 there are none.
+pg::Field field_of(const pg::Environment& e, const pg::FieldOptions& options,
+                   const std::vector<std::complex<float>>& pressure) {
+    pg::Field field;
+    field.depths = e.receivers.depth_m.size();
+    field.ranges = e.receivers.range_m.size();
+    field.loss_db.resize(pressure.size());
+    for (std::size_t k = 0; k < pressure.size(); ++k) {
+        const double range_m = e.receivers.range_m[k % field.ranges],
+                     depth_m = e.receivers.depth_m[k / field.ranges];
+        const bool is_water = range_m != 0 && depth_m <= bottom_depth_m(e, range_m) &&
+                              depth_m >= surface_depth_m(e, range_m);
+        const double size = std::abs(std::complex<double>(pressure[k]));
+        field.loss_db[k] = !is_water  ? std::numeric_limits<float>::quiet_NaN()
+                           : size > 0 ? static_cast<float>(-20 * std::log10(size))
+                                      : std::numeric_limits<float>::infinity();
+    }
+    if (options.sum == pg::Sum::coherent) field.pressure = pressure;
+    return field;
+}
+
+ShdFile read_result(const std::string& name, const std::string& bytes) {
+    try {
+        return read_shd(bytes);
+    } catch (const DataError& e) {
+        throw DataError(name + ": its result is not as it should be: " + e.what());
+    }
+}
+
+/// @throws DataError  a result of another size: it is not of what was asked
+void check_size(const std::string& name, const pg::Environment& e, std::size_t depths,
+                std::size_t ranges) {
+    const std::size_t d = e.receivers.depth_m.size(), r = e.receivers.range_m.size();
+    if (depths == d && ranges == r) return;
+    throw DataError(fmt::format("{}: its result has {} depths and {} ranges in place of {} and {}",
+                                name, depths, ranges, d, r));
+}
+
+double least_speed_mps(const pg::Environment& e) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const pg::SpeedPoint& point : e.water.profile)
+        least = std::min(least, point.sound_speed_mps);
+    return least;
+}
+
+/// Trapped modes, leaky ones too, or all that propagates.
+PhaseSpeeds phase_speeds(Program program, const pg::Environment& e) {
+    const double least = 0.93 * least_speed_mps(e);
+    const bool is_open = e.bottom.kind != pg::BoundaryKind::half_space;
+    if (program == Program::scooter || is_open) return {least, 1e9};
+    return {least, e.bottom.sound_speed_mps * (program == Program::kraken ? 1 : 2.4)};
+}
+
+bool is_bellhop(Program program) {
+    return program == Program::bellhop || program == Program::bellhopcxx;
+}
+
+/// bellhopcxx would reserve gigabytes.
+std::vector<std::string> options_of(Program program, const ExternalRun& run) {
+    if (program != Program::bellhopcxx) return {};
+    return {"--2D", fmt::format("--memory={}MiB",
+                                std::max<std::uint64_t>(run.limits.memory_bytes >> 22U, 64))};
+}
+
+}  // namespace
+
+Program parse_program(std::string_view name) {
+    for (const auto& [known, program] : programs)
+        if (name == known) return program;
+    if (name == "oases")
+        throw DataError(
+            "engine 'oases' is not driven yet: nothing is known of the form of its results");
+    throw DataError(quote(name) + " is none of bellhop, bellhopcxx, kraken, krakenc, scooter");
+}
+
+pg::Field external_field(Program program, const pg::Environment& e, const pg::FieldOptions& options,
+                         const ExternalRun& run) {
+    const std::string name = name_of(program);
+    Run one(run);
+    if (is_bellhop(program)) {
+        one.feed(write_bellhop(e, options, false));
+        const ShdFile shd = read_result(name, one.result_of(name, options_of(program, run), "shd"));
+        check_size(name, e, shd.receiver_depth_m.size(), shd.range_m.size());
+        return field_of(e, options, shd.pressure);
+    }
+    const double reach_km = e.receivers.range_m.back() / 1000;
+    const bool is_scooter = program == Program::scooter;
+    one.feed(
+        write_kraken(e, options, phase_speeds(program, e), is_scooter ? 4 * reach_km : reach_km));
+    if (is_scooter) {
+        if (options.sum != pg::Sum::coherent)
+            throw DataError("scooter adds coherently alone (--sum coherent)");
+        const ShdFile grn = read_result(name, one.result_of(name, {}, "grn"));
+        check_size(name, e, grn.receiver_depth_m.size(), e.receivers.range_m.size());
+        return field_of(e, options, transform_green(grn, e.receivers.range_m));
+    }
+    one.result_of(name, {}, "mod");
+    const ShdFile shd = read_result("field", one.result_of("field", {}, "shd"));
+    check_size("field", e, shd.receiver_depth_m.size(), shd.range_m.size());
+    return field_of(e, options, shd.pressure);
+}
+
+std::vector<pg::ReceiverArrivals> external_arrivals(Program program, const pg::Environment& e,
+                                                    const pg::FieldOptions& options,
+                                                    const ExternalRun& run) {
+    const std::string name = name_of(program);
+    if (!is_bellhop(program)) throw DataError("engine " + quote(name) + " knows no arrivals");
+    Run one(run);
+    one.feed(write_bellhop(e, options, true));
+    const std::string text = one.result_of(name, options_of(program, run), "arr");
+    ArrFile arr;
+    try {
+        arr = read_arr(text);
+    } catch (const DataError& fault) {
+        throw DataError(name + ": its result is not as it should be: " + fault.what());
+    }
+    check_size(name, e, arr.receiver_depth_m.size(), arr.range_m.size());
+    for (pg::ReceiverArrivals& receiver : arr.receivers)
+        std::sort(receiver.arrivals.begin(), receiver.arrivals.end(),
+                  [](const auto& a, const auto& b) { return a.delay_s < b.delay_s; });
+    return std::move(arr.receivers);
+}
+
+}  // namespace seautils::toolbox

@@ -1,0 +1,310 @@
+// Programs of others, by stand-ins that behave and misbehave; and what they are fed.
+#include "seautils/core/error.hpp"
+#include "seautils/toolbox/arr_file.hpp"
+#include "seautils/toolbox/env_file.hpp"
+#include "seautils/toolbox/env_writer.hpp"
+#include "seautils/toolbox/external.hpp"
+#include "seautils/toolbox/green.hpp"
+#include "seautils/toolbox/shd_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <cmath>
+#include <complex>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <thread>
+
+namespace seautils::toolbox {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace pg = propagation;
+
+std::string content_of(const fs::path& path) {
+    std::ostringstream all;
+    all << std::ifstream(path, std::ios::binary).rdbuf();
+    return all.str();
+}
+
+pg::Environment sea() {
+    pg::Environment e;
+    e.title = "A 'shelf'";
+    e.frequency_hz = 500;
+    e.source.depth_m = 20;
+    e.receivers = {{10, 50, 95.5}, {0, 250, 1000}};
+    e.water.profile = {{0, 1500}, {40, 1495.25}, {100, 1490}};
+    e.water.density_gcm3 = 1.025;
+    e.bottom.kind = pg::BoundaryKind::half_space;
+    e.bottom.sound_speed_mps = 1700;
+    e.bottom.density_gcm3 = 1.9;
+    e.bottom.attenuation_db_per_wavelength = 0.8;
+    e.bottom_depth_m = 100;
+    return e;
+}
+
+/// A pressure of 10^-(1 + depth / 10 + range / 20) at each receiver.
+std::string shd_of(const pg::Environment& e) {
+    ShdFile f;
+    f.frequency_hz = e.frequency_hz;
+    f.source_depth_m = {static_cast<float>(e.source.depth_m)};
+    f.receiver_depth_m.assign(e.receivers.depth_m.begin(), e.receivers.depth_m.end());
+    f.range_m = e.receivers.range_m;
+    for (int z = 0; z < 3; ++z)
+        for (int r = 0; r < 3; ++r)
+            f.pressure.emplace_back(0.0F,
+                                    static_cast<float>(std::pow(10, -1 - z / 10.0 - r / 20.0)));
+    return write_shd(f, ShdLayout::of_2022);
+}
+
+/// A folder of stand-ins, which alone are in PATH beside the system's.
+class External : public testing::Test {
+protected:
+    External() : folder_(testing::TempDir()) {
+        const char* before = std::getenv("PATH");
+        path_ = before == nullptr ? "/usr/bin:/bin" : before;
+        ::setenv("PATH", (folder_.path() + ":/usr/bin:/bin").c_str(), 1);
+        run_.temporary = folder_.path();
+        put("good.shd", shd_of(sea()));
+    }
+    ~External() override { ::setenv("PATH", path_.c_str(), 1); }
+
+    void put(const std::string& name, const std::string& bytes) const {
+        std::ofstream(folder_.path() + "/" + name, std::ios::binary) << bytes;
+    }
+    /// A program of shell; $here is the folder of the stand-ins.
+    void program(const std::string& name, const std::string& script) const {
+        put(name, "#!/bin/sh\nhere='" + folder_.path() + "'\n" + script + "\n");
+        ::chmod((folder_.path() + "/" + name).c_str(), 0755);
+    }
+    pg::Field field(Program which, const pg::FieldOptions& options = {}) const {
+        return external_field(which, sea(), options, run_);
+    }
+    std::string refusal(Program which, ExitCode code = ExitCode::data) const {
+        try {
+            field(which);
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), code);
+            return e.what();
+        }
+        return "accepted";
+    }
+    /// Nothing is left of the folders of runs.
+    void expect_clean() const {
+        for (const auto& entry : fs::directory_iterator(folder_.path()))
+            EXPECT_FALSE(entry.is_directory()) << entry.path();
+    }
+
+    PrivateFolder folder_;
+    ExternalRun run_;
+    std::string path_;
+};
+
+}  // namespace
+
+TEST_F(External, OneThatBehaves) {
+    program("bellhop.exe",
+            "[ \"$1\" = sea ] && [ $# = 1 ] && cp $here/good.shd sea.shd; echo done > sea.prt");
+    const pg::Field f = field(Program::bellhop);
+    EXPECT_TRUE(std::isnan(f.loss_db[0]));  // range 0
+    EXPECT_NEAR(f.loss_db[1], 21, 1e-4);
+    EXPECT_NEAR(f.loss_db[8], 26, 1e-4);
+    EXPECT_TRUE(f.pressure.empty());
+    pg::FieldOptions coherent;
+    coherent.sum = pg::Sum::coherent;
+    EXPECT_EQ(field(Program::bellhop, coherent).pressure.size(), 9U);
+    expect_clean();
+}
+
+TEST_F(External, BellhopcxxIsToldHowMuchItMayTake) {
+    run_.limits.memory_bytes = std::uint64_t{512} << 20U;
+    program("bellhopcxx", "case \"$*\" in *--memory=128MiB*sea) cp $here/good.shd sea.shd ;; esac");
+    EXPECT_NEAR(field(Program::bellhopcxx).loss_db[1], 21, 1e-4);
+}
+
+TEST_F(External, ItsLimitOfMemoryHolds) {
+    run_.limits.memory_bytes = std::uint64_t{300} << 20U;
+    program("bellhop", "[ \"$(ulimit -v)\" = 307200 ] && cp $here/good.shd sea.shd");
+    EXPECT_NEAR(field(Program::bellhop).loss_db[1], 21, 1e-4);
+}
+
+TEST_F(External, StatusZeroOnAFatalErrorIsCaught) {
+    program("bellhop",
+            "cp $here/good.shd sea.shd\n"
+            "printf ' BELLHOP\\n *** FATAL ERROR ***\\n Generated by program: READIN\\n bad "
+            "SSP\\n' > sea.prt");
+    EXPECT_EQ(refusal(Program::bellhop), "bellhop failed: 'Generated by program: READIN bad SSP'");
+    expect_clean();
+}
+
+TEST_F(External, StatusSignalAndNoResult) {
+    program("bellhop", "cp $here/good.shd sea.shd; exit 2");
+    EXPECT_EQ(refusal(Program::bellhop), "bellhop ended with status 2");
+    program("bellhop", "cp $here/good.shd sea.shd; kill -SEGV $$");
+    EXPECT_EQ(refusal(Program::bellhop), "bellhop was ended by signal 11");
+    program("bellhop", "true");
+    EXPECT_EQ(refusal(Program::bellhop), "bellhop left no result");
+    program("bellhop", ": > sea.shd");
+    EXPECT_EQ(refusal(Program::bellhop), "bellhop left no result");
+    EXPECT_EQ(refusal(Program::kraken, ExitCode::unavailable),
+              "kraken: no such program is installed");
+    expect_clean();
+}
+
+TEST_F(External, ResultsThatAreNotWhatWasAsked) {
+    program("bellhop", "head -c 1700 $here/good.shd > sea.shd");
+    EXPECT_EQ(refusal(Program::bellhop),
+              "bellhop: its result is not as it should be: it is cut at byte 1700");
+    program("bellhop", "echo hello, this is no field at all > sea.shd");
+    EXPECT_NE(refusal(Program::bellhop), "accepted");
+    pg::Environment other = sea();
+    other.receivers.range_m = {1, 2};
+    ShdFile f = read_shd(shd_of(sea()));
+    f.range_m.pop_back();
+    f.pressure.resize(6);
+    put("good.shd", write_shd(f, ShdLayout::of_2023));
+    program("bellhop", "cp $here/good.shd sea.shd");
+    EXPECT_EQ(refusal(Program::bellhop),
+              "bellhop: its result has 3 depths and 2 ranges in place of 3 and 3");
+}
+
+TEST_F(External, OneThatHangsIsEndedWithItsChildren) {
+    run_.limits.seconds = 0.3;
+    program("bellhop", "sleep 60 & echo $! > $here/child; sleep 60");
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(refusal(Program::bellhop, ExitCode::try_again), "bellhop did not end within 0.3 s");
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+    std::string child = content_of(folder_.path() + "/child");
+    child.resize(child.find_last_not_of('\n') + 1);
+    const auto is_gone = [&] {
+        const std::string state = content_of("/proc/" + child + "/stat");
+        return state.empty() || state.find(") Z ") != state.npos;
+    };
+    for (int k = 0; k < 100 && !is_gone(); ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(is_gone());
+    expect_clean();
+}
+
+TEST_F(External, WhatTheFirstLeavesIsNoResultOfTheSecond) {
+    program("kraken", "echo modes > sea.mod; cp $here/good.shd sea.shd");
+    program("field", "[ -s sea.mod ] && [ -s sea.flp ]");
+    EXPECT_EQ(refusal(Program::kraken), "field left no result");
+    program("field", "[ -s sea.mod ] && [ -s sea.flp ] && cp $here/good.shd sea.shd");
+    EXPECT_NEAR(field(Program::kraken).loss_db[1], 21, 1e-4);
+    program("kraken", "cp $here/good.shd sea.shd");
+    EXPECT_EQ(refusal(Program::kraken), "kraken left no result");
+}
+
+TEST_F(External, ArrivalsOfBellhop) {
+    ArrFile f;
+    f.frequency_hz = 500;
+    f.source_depth_m = {20};
+    f.receiver_depth_m = sea().receivers.depth_m;
+    f.range_m = sea().receivers.range_m;
+    f.receivers.resize(9);
+    pg::Arrival late, early;
+    late.amplitude = 0.5;
+    late.delay_s = 2;
+    early.delay_s = 1;
+    f.receivers[4].arrivals = {late, early};
+    put("good.arr", write_arr(f, ArrForm::text));
+    program("bellhop", "cp $here/good.arr sea.arr");
+    const auto all = external_arrivals(Program::bellhop, sea(), {}, run_);
+    ASSERT_EQ(all.size(), 9U);
+    EXPECT_EQ(all[4].arrivals[0].delay_s, 1);
+    EXPECT_EQ(all[4].arrivals[1].amplitude, 0.5);
+    EXPECT_THROW(external_arrivals(Program::kraken, sea(), {}, run_), DataError);
+}
+
+TEST(Green, IsTheSumThatItStandsFor) {
+    ShdFile g;
+    g.frequency_hz = 100;
+    g.receiver_depth_m = {5};
+    const double omega = 2 * std::numbers::pi * 100;
+    const double k1 = omega / 1600, step = (omega / 1400 - k1) / 2;
+    for (int k = 0; k < 3; ++k) g.range_m.push_back(omega / (k1 + k * step));
+    g.pressure = {{0, 0}, {2, -1}, {0, 0}};  // one wavenumber
+    const auto p = transform_green(g, {0, 700});
+    EXPECT_EQ(p[0], std::complex<float>());
+    // |p| = |G| |√(k + iδ)| e^{δ r} Δk / √(2 π r)
+    const double k = k1 + step;
+    const double size = std::sqrt(5.0) * std::sqrt(std::hypot(k, step)) * std::exp(step * 700) *
+                        step / std::sqrt(2 * std::numbers::pi * 700);
+    EXPECT_NEAR(std::abs(p[1]) / size, 1, 1e-6);
+    const double turned = std::arg(std::complex<double>(2, -1)) + 0.5 * std::atan2(step, k) -
+                          (k * 700 - std::numbers::pi / 4) + std::numbers::pi;
+    EXPECT_NEAR(std::cos(std::arg(p[1]) - turned), 1, 1e-5);
+}
+
+TEST(EnvWriter, IsReadAgain) {
+    pg::Environment e = sea();
+    e.receivers.range_m = {100, 250, 1000};
+    e.water.absorption = {pg::AbsorptionModel::fixed, 10, 35, 8, 0, 12.5};
+    e.bottom_line = pg::Line{true, {-100, 500, 2000}, {90, 100, 80.5}};
+    e.surface_line = pg::Line{false, {0, 700}, {0, 0.25}};
+    e.source.pattern = {{-90, -20}, {0, 0}, {90, -3}};
+    e.surface.kind = pg::BoundaryKind::table;
+    e.surface.table = {{0, 1, 180}, {90, 0.5, 175}};
+    e.bottom.shear_speed_mps = 300;
+    pg::FieldOptions options;
+    options.sum = pg::Sum::semi_coherent;
+    options.beam = pg::Beam::hat;
+    const Files files = write_bellhop(e, options, false);
+    const EnvFile back = read_env(files.at("env"), [&](const std::string& extension) {
+        const auto at = files.find(extension);
+        return at == files.end() ? std::nullopt : std::optional(at->second);
+    });
+    const pg::Environment& b = back.environment;
+    EXPECT_EQ(b.title, "A  shelf ");
+    EXPECT_EQ(b.frequency_hz, 500);
+    EXPECT_EQ(back.source_depth_m, (std::vector<double>{20}));
+    EXPECT_EQ(b.receivers.range_m, e.receivers.range_m);
+    EXPECT_EQ(b.receivers.depth_m, e.receivers.depth_m);
+    ASSERT_EQ(b.water.profile.size(), 3U);
+    EXPECT_EQ(b.water.profile[1].sound_speed_mps, 1495.25);
+    EXPECT_NEAR(b.water.absorption.db_per_km, 12.5, 1e-6);
+    EXPECT_EQ(b.bottom_line->range_m, e.bottom_line->range_m);
+    EXPECT_EQ(b.bottom_line->depth_m, e.bottom_line->depth_m);
+    EXPECT_TRUE(b.bottom_line->curved);
+    EXPECT_EQ(b.surface_line->depth_m, e.surface_line->depth_m);
+    EXPECT_EQ(b.source.pattern[2].level_db, -3);
+    EXPECT_EQ(b.surface.table[1].phase_deg, 175);
+    EXPECT_EQ(b.bottom.shear_speed_mps, 300);
+    EXPECT_EQ(back.options.sum, pg::Sum::semi_coherent);
+    EXPECT_EQ(back.options.beam, pg::Beam::hat);
+    EXPECT_TRUE(back.remarks.empty());
+}
+
+TEST(EnvWriter, ProfilesEndAtTheBottom) {
+    for (const double last_m : {60.0, 140.0}) {
+        pg::Environment e = sea();
+        e.receivers.range_m = {100, 1000};
+        e.water.profile = {{10, 1500}, {last_m, 1510}};
+        const auto read = [](const Files& files) {
+            return read_env(files.at("env"),
+                            [&](const std::string& extension) {
+                                const auto at = files.find(extension);
+                                return at == files.end() ? std::nullopt : std::optional(at->second);
+                            })
+                .environment;
+        };
+        const pg::Environment rays = read(write_bellhop(e, {}, false)),
+                              modes = read(write_kraken(e, {}, {1400, 1600}, 1));
+        EXPECT_EQ(rays.water.profile.front().depth_m, 0);
+        EXPECT_EQ(bottom_depth_m(rays, 500), 100);
+        EXPECT_EQ(modes.bottom_depth_m, 100);
+        EXPECT_EQ(modes.water.profile.back().depth_m, 100);
+        const double speed_mps = last_m < 100 ? 1510 : 1500 + 10 * 90.0 / 130;
+        EXPECT_NEAR(modes.water.profile.back().sound_speed_mps, speed_mps, 1e-6);
+    }
+}
+
+}  // namespace seautils::toolbox
