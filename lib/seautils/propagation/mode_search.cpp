@@ -208,7 +208,7 @@ ModeSet find_modes(const Waveguide& guide, double least_xi, std::size_t steps,
     const std::size_t sought = xi.size();
     for (std::size_t k = 0; k < xi.size(); k += polish_lanes) {
         TwistedRows::Xis lanes = lanes_of(xi, k);
-        coarse.polish(lanes, scale, 1e-9, 12);
+        coarse.polish(lanes, scale, 1e-6, 12);
         std::copy_n(lanes.begin(), std::min(polish_lanes, xi.size() - k),
                     xi.begin() + static_cast<std::ptrdiff_t>(k));
     }

@@ -7,10 +7,10 @@
 
 namespace seautils::propagation {
 
-/// What modes or wavenumbers of a field may cost: modes times nodes of their mesh, or samples times
-/// nodes and receivers; a few seconds.
-inline constexpr std::size_t most_modes = 5000, most_mode_nodes = 100'000'000,
-                             most_wavenumber_nodes = 400'000'000;
+/// What modes may cost: how many, and how many times nodes of their mesh. What wavenumbers may: samples times
+/// receivers and (20 times) nodes. Each a few seconds.
+inline constexpr std::size_t most_modes = 5000, most_mode_nodes = 40'000'000,
+                             most_wavenumber_work = 2'000'000'000;
 
 /// Loss by a sum of normal modes, leaky ones included. Steep ones that leave less than 1 % of their amplitude
 /// where the sum is to hold are left out: near the source, within three depths, some loss is missing
@@ -23,7 +23,7 @@ inline constexpr std::size_t most_modes = 5000, most_mode_nodes = 100'000'000,
 Field mode_field(const Environment& environment, const FieldOptions& options);
 
 /// Loss by integration over horizontal wavenumber: all that there is in level fluid layers, and slow.
-/// @throws DataError  as mode_field(), also for an incoherent sum; more work than most_wavenumber_nodes
+/// @throws DataError  as mode_field(), also for an incoherent sum; more work than most_wavenumber_work
 Field wavenumber_field(const Environment& environment, const FieldOptions& options);
 
 }  // namespace seautils::propagation
