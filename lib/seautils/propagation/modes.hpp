@@ -8,7 +8,7 @@
 namespace seautils::propagation {
 
 /// What modes may cost: how many, and how many times nodes of their mesh. What wavenumbers may: samples times
-/// receivers and (20 times) nodes. Each a few seconds.
+/// receivers and (10 times) nodes. Each a few seconds.
 inline constexpr std::size_t most_modes = 5000, most_mode_nodes = 40'000'000,
                              most_wavenumber_work = 2'000'000'000;
 

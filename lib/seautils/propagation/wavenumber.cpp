@@ -76,60 +76,84 @@ Complex interpolated(const std::array<Complex, 6>& u, double x) {
     return sum;
 }
 
+/// mantissa 2^(512 exponent): products down a thousand wavelengths of decay stay numbers.
+struct Scaled {
+    Complex mantissa = 0;
+    int exponent = 0;
+
+    Scaled times(const Complex& factor) const {
+        Scaled s{mantissa * factor, exponent};
+        const double size = std::abs(s.mantissa.real()) + std::abs(s.mantissa.imag());
+        if (size < 0x1p-256 && size > 0) s = {s.mantissa * 0x1p512, exponent - 1};
+        if (size > 0x1p256) s = {s.mantissa * 0x1p-512, exponent + 1};
+        return s;
+    }
+    /// As a number, where another exponent counts as 0.
+    Complex beside(int other) const {
+        const int turns = std::clamp(exponent - other, -4, 2);
+        return turns == 0 ? mantissa
+                          : Complex(std::ldexp(mantissa.real(), 512 * turns),
+                                    std::ldexp(mantissa.imag(), 512 * turns));
+    }
+};
+
 /// The depth-separated Green's function from the solution that holds at the surface and that which holds at
-/// the bottom: u(shallower) v(deeper) / Wronskian. All are kept as ratios, which do not overflow.
+/// the bottom: u(shallower) v(deeper) / (u' v - u v').
 class Green {
 public:
     Green(const Mesh& mesh, double source_m, const std::vector<double>& depth_m)
-        : mesh_(mesh), source_(source_m), depth_(depth_m), log_u_(mesh.k2.size()), log_v_(log_u_) {}
+        : mesh_(mesh), source_(source_m), depth_(depth_m), u_(mesh.k2.size()), v_(mesh.k2.size()) {}
 
     /// At all depths, for one k.
     void evaluate(const TwistedRows& rows, std::size_t lane, std::vector<Complex>& green) {
         follow(rows, lane);
-        const Complex u_source = log_at(rows, lane, log_u_, source_),
-                      v_source = log_at(rows, lane, log_v_, source_);
-        // The Wronskian of Numerov's w is the same between any two nodes: h of that of u.
-        const std::size_t j = middle(source_);
-        const Complex meeting = rows.meeting(lane, j);
-        const Complex base = std::log(-meeting / mesh_.step_m) + log_u_[j] + log_v_[j];
+        const Scaled u_source = at(rows, lane, u_, source_), v_source = at(rows, lane, v_, source_);
+        const std::size_t j = nearest(source_);
+        // Of Numerov's w it is the same between any two nodes, and h times that of u.
+        const Complex determinant =
+            -rows.meeting(lane, j) * u_[j].mantissa * v_[j].mantissa / mesh_.step_m;
+        const int exponent = u_[j].exponent + v_[j].exponent;
         for (std::size_t k = 0; k < depth_.size(); ++k) {
             const bool shallower = depth_[k] < source_;
-            const Complex other = log_at(rows, lane, shallower ? log_u_ : log_v_, depth_[k]);
-            green[k] = std::exp(other + (shallower ? v_source : u_source) - base);
+            const Scaled here = at(rows, lane, shallower ? u_ : v_, depth_[k]);
+            const Scaled there = shallower ? v_source : u_source;
+            const Scaled product{here.mantissa * (there.mantissa / determinant),
+                                 here.exponent + there.exponent};
+            green[k] = product.beside(exponent);
         }
     }
 
 private:
-    std::size_t middle(double depth_m) const {
+    std::size_t nearest(double depth_m) const {
         const double at = (depth_m - mesh_.guide.column.surface_m()) / mesh_.step_m;
         return std::clamp(static_cast<std::size_t>(std::lround(at)), mesh_.first, mesh_.last);
     }
-    /// Logarithms of w down the mesh: of the two solutions, each 1 at its own end.
+    /// w of both solutions: u 1 at the bottom, v 1 at the surface.
     void follow(const TwistedRows& rows, std::size_t lane) {
-        log_u_[mesh_.first] = 0;
-        for (std::size_t j = mesh_.first; j < mesh_.last; ++j)
-            log_u_[j + 1] = log_u_[j] - std::log(rows.from_surface(lane, j));
-        log_v_[mesh_.last] = 0;
+        u_[mesh_.last] = {1, 0};
         for (std::size_t j = mesh_.last; j-- > mesh_.first;)
-            log_v_[j] = log_v_[j + 1] - std::log(rows.from_bottom(lane, j));
+            u_[j] = u_[j + 1].times(rows.from_surface(lane, j));
+        v_[mesh_.first] = {1, 0};
+        for (std::size_t j = mesh_.first; j < mesh_.last; ++j)
+            v_[j + 1] = v_[j].times(rows.from_bottom(lane, j));
     }
-    Complex log_at(const TwistedRows& rows, std::size_t lane, const std::vector<Complex>& log_w,
-                   double depth_m) const {
+    Scaled at(const TwistedRows& rows, std::size_t lane, const std::vector<Scaled>& w,
+              double depth_m) const {
         const Place p = place(mesh_, depth_m);
-        const std::size_t j = middle(depth_m);
+        const int exponent = w[nearest(depth_m)].exponent;
         std::array<Complex, 6> u{};
         for (std::size_t a = 0; a < 6; ++a) {
             const std::size_t node = p.first + a;
-            if (node < mesh_.first || node > mesh_.last) continue;
-            u[a] = std::exp(log_w[node] - log_w[j]) / rows.weight(lane, node);
+            if (node >= mesh_.first && node <= mesh_.last)
+                u[a] = w[node].beside(exponent) / rows.weight(lane, node);
         }
-        return log_w[j] + std::log(interpolated(u, p.x));
+        return {interpolated(u, p.x), exponent};
     }
 
     const Mesh& mesh_;
     double source_;
     const std::vector<double>& depth_;
-    std::vector<Complex> log_u_, log_v_;
+    std::vector<Scaled> u_, v_;
 };
 
 /// J0, for a little below the real axis.
@@ -166,7 +190,7 @@ std::size_t steps_of(const Environment& e, const LevelSea& sea, const Contour& c
         24.0, std::ceil(std::sqrt(sea.most_k2) * sea.column.height_m() / radians_per_step));
     const double receivers = static_cast<double>(e.receivers.range_m.size()) *
                              static_cast<double>(sea.depth_m.size() + 20);
-    const double work = static_cast<double>(c.samples) * (20 * steps + receivers);
+    const double work = static_cast<double>(c.samples) * (10 * steps + receivers);
     if (!(work <= static_cast<double>(most_wavenumber_work)))
         throw DataError(
             fmt::format("wavenumber: {} samples on {:.0f} nodes for {:.0f} receivers are more work "
