@@ -22,7 +22,7 @@ constexpr Complex i{0, 1};
 constexpr double pi = std::numbers::pi;
 constexpr double forgotten_np = 16;  ///< a mode that has decayed by more adds nothing to a float
 constexpr double left_out_np = 4.6;  ///< a steeper mode would leave less than 1 % of its amplitude
-constexpr double radians_per_step = 0.6;
+constexpr double radians_per_step = 0.7;
 constexpr std::size_t few_modes = 200;
 
 double first_range_m(const Environment& e) {
