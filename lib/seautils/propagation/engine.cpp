@@ -1,12 +1,68 @@
 #include "seautils/propagation/engine.hpp"
 
-#include "seautils/core/error.hpp"
+#include "seautils/propagation/column.hpp"
+#include "seautils/propagation/modes.hpp"
+#include "seautils/propagation/rays.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
 
 namespace seautils::propagation {
 
-std::string_view name(Engine) { throw DataError("not there yet"); }
-Field compute_field(const Environment&, Engine, const FieldOptions&) {
-    throw DataError("not there yet");
+namespace {
+
+/// Why modes cannot be had; nothing where they can.
+const char* against_modes(const Environment& e, const FieldOptions& o) {
+    if (o.sum != Sum::coherent) return "intensities are summed";
+    if (e.fan.beams != 0) return "a number of beams is given";
+    if (!is_range_independent(e)) return "the sea depends on range";
+    if (!e.source.pattern.empty()) return "the source has a pattern";
+    if (e.source.line) return "the source is a line";
+    if (o.baffle_from_deg != o.baffle_to_deg) return "receivers have a baffle";
+    if (e.surface.kind == BoundaryKind::table || e.bottom.kind == BoundaryKind::table)
+        return "a boundary is a table";
+    if (!holds_modes(e)) return "the boundaries hold no modes";
+    return nullptr;
+}
+
+double depth_in_wavelengths(const Environment& e) {
+    const Column column(e);
+    const double middle = column.surface_m() + column.height_m() / 2;
+    return e.frequency_hz * column.height_m() * std::sqrt(column.squared_slowness(middle));
+}
+
+}  // namespace
+
+std::string_view name(Engine engine) {
+    static constexpr std::string_view names[]{"auto", "rays", "modes", "wavenumber"};
+    return names[static_cast<std::size_t>(engine)];
+}
+
+Choice choose_engine(const Environment& e, const FieldOptions& o) {
+    if (const char* why = against_modes(e, o)) return {Engine::rays, why};
+    const double wavelengths = depth_in_wavelengths(e);
+    const bool few = wavelengths <= most_wavelengths_of_modes;
+    return {few ? Engine::modes : Engine::rays,
+            fmt::format("the water is {:.3g} wavelengths deep, {} than {}", wavelengths,
+                        few ? "not more" : "more", most_wavelengths_of_modes)};
+}
+
+Field compute_field(const Environment& environment, Engine engine, const FieldOptions& options) {
+    check(environment);
+    Choice choice{engine, ""};
+    if (engine == Engine::automatic) choice = choose_engine(environment, options);
+    Field field;
+    if (choice.engine == Engine::modes)
+        field = mode_field(environment, options);
+    else if (choice.engine == Engine::wavenumber)
+        field = wavenumber_field(environment, options);
+    else
+        field = ray_field(environment, options);
+    field.basis.engine = choice.engine;
+    field.basis.why = choice.why;
+    return field;
 }
 
 }  // namespace seautils::propagation

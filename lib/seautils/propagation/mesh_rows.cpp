@@ -196,10 +196,13 @@ TwistedRows::Shape TwistedRows::shape(std::size_t lane, std::vector<Complex>* va
                        -ratio.real() * w.imag() - ratio.imag() * w.real()};
     };
     take(middle, 1.0);
+    constexpr double forgotten = 1e-24;  // of |w|², where nothing of a sum would change
     Complex w = 1;
-    for (std::size_t j = middle; j-- > mesh_.first;) take(j, w = step(w, get(down_[j], lane)));
+    for (std::size_t j = middle; j-- > mesh_.first && std::norm(w) > forgotten;)
+        take(j, w = step(w, get(down_[j], lane)));
     w = 1;
-    for (std::size_t j = middle + 1; j <= mesh_.last; ++j) take(j, w = step(w, get(up_[j], lane)));
+    for (std::size_t j = middle + 1; j <= mesh_.last && std::norm(w) > forgotten; ++j)
+        take(j, w = step(w, get(up_[j], lane)));
     return {meeting(lane, middle), sum};
 }
 

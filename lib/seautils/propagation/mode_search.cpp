@@ -208,7 +208,7 @@ ModeSet find_modes(const Waveguide& guide, double least_xi, std::size_t steps,
     const std::size_t sought = xi.size();
     for (std::size_t k = 0; k < xi.size(); k += polish_lanes) {
         TwistedRows::Xis lanes = lanes_of(xi, k);
-        coarse.polish(lanes, scale, 1e-9, 12);
+        coarse.polish(lanes, scale, 1e-6, 12);
         std::copy_n(lanes.begin(), std::min(polish_lanes, xi.size() - k),
                     xi.begin() + static_cast<std::ptrdiff_t>(k));
     }
@@ -218,8 +218,11 @@ ModeSet find_modes(const Waveguide& guide, double least_xi, std::size_t steps,
     std::vector<Interpolation> at;
     for (const double z : depth_m) at.push_back(interpolation(fine.mesh(), z));
     std::array<std::vector<Complex>, polish_lanes> u;
+    // Between the meshes steep modes move by more than lies between them, and all in the same way.
+    Complex shift = 0;
     for (std::size_t k = 0; k < xi.size(); k += polish_lanes) {
         TwistedRows::Xis lanes = lanes_of(xi, k);
+        for (Complex& lane : lanes) lane += shift;
         fine.polish(lanes, scale, 1e-6, 3);
         fine.shapes(lanes, u);
         for (std::size_t l = 0; l < polish_lanes && k + l < xi.size(); ++l) {
@@ -227,6 +230,7 @@ ModeSet find_modes(const Waveguide& guide, double least_xi, std::size_t steps,
             const Complex correction = (lanes[l] - xi[k + l]) * extrapolated;
             mode.xi = lanes[l] + correction;
             if (!std::isfinite(std::abs(mode.xi))) continue;
+            shift = lanes[l] - xi[k + l];
             for (const Interpolation& i : at) {
                 Complex sum = 0;
                 for (std::size_t a = 0; a < 6; ++a) sum += i.weights[a] * u[l][i.first + a];

@@ -22,7 +22,7 @@ constexpr Complex i{0, 1};
 constexpr double pi = std::numbers::pi;
 constexpr double forgotten_np = 16;  ///< a mode that has decayed by more adds nothing to a float
 constexpr double left_out_np = 4.6;  ///< a steeper mode would leave less than 1 % of its amplitude
-constexpr double radians_per_step = 0.6;  ///< of the steepest mode, on the coarser mesh
+constexpr double radians_per_step = 0.7;
 constexpr std::size_t few_modes = 200;
 
 double first_range_m(const Environment& e) {
@@ -190,8 +190,26 @@ void sum_modes(Field& field, const Environment& e, const LevelSea& sea,
 
 }  // namespace
 
+bool holds_modes(const Environment& e) {
+    const Column column(e);
+    const auto most_reflected = [&](const Boundary& b, double depth_m) {
+        const double c = 1 / std::sqrt(column.squared_slowness(depth_m));
+        double most = 0;
+        for (double deg = 2; deg <= 45; deg += 1)
+            most = std::max(most, std::abs(reflection_coefficient(b, e.frequency_hz, deg * pi / 180,
+                                                                  c, e.water.density_gcm3)));
+        return most;
+    };
+    constexpr double least = 0.03;
+    const double top = column.surface_m();
+    return most_reflected(e.surface, top) > least &&
+           most_reflected(e.bottom, top + column.height_m()) > least;
+}
+
 Field mode_field(const Environment& environment, const FieldOptions& options) {
     const LevelSea sea(environment, options, "modes");
+    if (!holds_modes(environment))
+        throw DataError("modes: a boundary reflects nothing, so there are none (rays can)");
     const Plan what = plan(environment, sea);
     std::vector<double> depths = sea.depth_m;
     depths.push_back(environment.source.depth_m);

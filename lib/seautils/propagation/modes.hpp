@@ -7,10 +7,14 @@
 
 namespace seautils::propagation {
 
-/// What modes or wavenumbers of a field may cost: modes times nodes of their mesh, or samples times
-/// nodes and receivers; a few seconds.
-inline constexpr std::size_t most_modes = 5000, most_mode_nodes = 100'000'000,
-                             most_wavenumber_nodes = 400'000'000;
+/// What modes may cost: how many, and how many times nodes of their mesh. What wavenumbers may: samples times
+/// receivers and (10 times) nodes. Each a few seconds.
+inline constexpr std::size_t most_modes = 5000, most_mode_nodes = 40'000'000,
+                             most_wavenumber_work = 2'000'000'000;
+
+/// Both boundaries send back what meets them at some low angle: 3 % of its amplitude at least. Else there are no
+/// modes to sum: water over water.
+bool holds_modes(const Environment& environment);
 
 /// Loss by a sum of normal modes, leaky ones included. Steep ones that leave less than 1 % of their amplitude
 /// where the sum is to hold are left out: near the source, within three depths, some loss is missing
@@ -18,12 +22,12 @@ inline constexpr std::size_t most_modes = 5000, most_mode_nodes = 100'000'000,
 /// Check values (Pekeris: 100 m of 1500 m/s over 1700 m/s of 1.8 g/cm³, 250 Hz): the first and the
 /// last of 16 trapped wavenumbers are 1.0467587796 and 0.9266745618 rad/m.
 /// @throws DataError  check() does; the sea depends on range; a source with a pattern or a line source; a
-///                    semi-coherent sum, or a baffle: these are of rays; a boundary that is a table; more modes than
-///                    most_modes, or work than most_mode_nodes, would be needed
+///                    semi-coherent sum, or a baffle: these are of rays; a boundary that is a table, or holds no modes; more
+///                    modes than most_modes, or work than most_mode_nodes, would be needed
 Field mode_field(const Environment& environment, const FieldOptions& options);
 
 /// Loss by integration over horizontal wavenumber: all that there is in level fluid layers, and slow.
-/// @throws DataError  as mode_field(), also for an incoherent sum; more work than most_wavenumber_nodes
+/// @throws DataError  as mode_field(), also for an incoherent sum; more work than most_wavenumber_work
 Field wavenumber_field(const Environment& environment, const FieldOptions& options);
 
 }  // namespace seautils::propagation
