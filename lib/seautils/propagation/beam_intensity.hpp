@@ -40,7 +40,7 @@ private:
     void flush();
     void shape();
     void spread(std::size_t spot);
-    void spread(std::size_t spot, float depth_m, float height);
+    void spread(std::size_t spot, const Columns::View& column, float depth_m, float height);
 
     const RaySea& sea_;
     const Columns& columns_;
@@ -48,8 +48,8 @@ private:
     BeamWalk walk_;
     std::uint64_t cut_ = 0;  // by others
     Spots spots_{};
-    double energy_ = 0, width_per_q_ = 0;  // of the ray under way
-    float least_of_kind_;                  // 0: beams may be as narrow as they will
+    double energy_ = 0, width_per_q_ = 0;           // of the ray under way
+    double least_per_m_ = 0, least_at_most_m_ = 0;  // width of a beam over its path; 0 of hats
     std::vector<float> sum_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -74,7 +75,7 @@ public:
     /// `least_amplitude`.
     template <class State, class Visit>
     void run(double launch_rad, double stop_m, double least_amplitude, Visit&& visit) {
-        RayTracer tracer(sea_, launch_rad, stop_m);
+        RayTracer tracer(sea_, launch_rad, stop_m, std::is_same_v<State, BeamState>);
         State state;
         launch(tracer, state);
         cycle_.clear();

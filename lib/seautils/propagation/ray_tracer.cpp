@@ -45,14 +45,16 @@ double spread_of(const Leg& leg, const Advance& to, double end_speed_mps, double
            level;
 }
 
-/// Length, delay and spread of an advance whose ends are known.
-void measure(const Leg& leg, Advance& to) {
+/// Length, delay (where it is wanted) and spread of an advance whose ends are known.
+void measure(const Leg& leg, Advance& to, bool timed) {
     const double end_speed_mps =
         leg.speed_mps + leg.range_gradient * to.along_m + leg.depth_gradient * to.down_m;
     const double chord_m = std::sqrt(to.along_m * to.along_m + to.down_m * to.down_m);
-    const double slowness = 1 / std::sqrt(leg.speed_mps * end_speed_mps);
     to.length_m = chord_m * arc_over_chord(0.5 * leg.curvature * chord_m);
-    to.delay_s = chord_m * slowness * slowing(0.5 * leg.gradient * chord_m * slowness);
+    if (timed) {
+        const double slowness = 1 / std::sqrt(leg.speed_mps * end_speed_mps);
+        to.delay_s = chord_m * slowness * slowing(0.5 * leg.gradient * chord_m * slowness);
+    }
     to.spread = spread_of(leg, to, end_speed_mps, chord_m);
 }
 
@@ -81,17 +83,18 @@ Advance Leg::part(double along_m) const {
     to.sine = std::clamp(sine + curvature * along_m, -1., 1.);
     to.cosine = std::copysign(root_of_rest(to.sine), cosine);
     to.down_m = along_m * (sine + to.sine) / (cosine + to.cosine);
-    measure(*this, to);
+    measure(*this, to, true);
     return to;
 }
 
-RayTracer::RayTracer(const RaySea& sea, double launch_rad, double stop_m)
+RayTracer::RayTracer(const RaySea& sea, double launch_rad, double stop_m, bool timed)
     : sea_(sea),
       stop_m_(stop_m),
       depth_m_(sea.source_depth_m),
       cosine_(std::cos(launch_rad)),
       sine_(away_from_zero(std::sin(launch_rad))),
-      strip_(sea.strip_at(0)) {
+      strip_(sea.strip_at(0)),
+      timed_(timed) {
     const bool on_surface = sea.surface.level && depth_m_ <= sea.surface.depth_m && sine_ < 0;
     const bool on_bottom = sea.bottom.level && depth_m_ >= sea.bottom.depth_m && sine_ > 0;
     if (on_surface || on_bottom) {
@@ -266,7 +269,7 @@ void RayTracer::arrive(Leg& leg, End end) {
     depth_m_ += leg.whole.down_m;
     cosine_ = leg.whole.cosine;
     sine_ = leg.whole.sine;
-    measure(leg, leg.whole);
+    measure(leg, leg.whole, timed_);
     const double twist = cell().twist;
     if (twist != 0 && leg.whole.length_m > 0)
         leg.kick += 2 * twist * leg.whole.along_m * leg.whole.down_m /

@@ -42,7 +42,8 @@ class RayTracer {
 public:
     /// @param launch_rad  -π/2 to π/2, down is positive
     /// @param stop_m      range at which it ends
-    RayTracer(const RaySea& sea, double launch_rad, double stop_m);
+    /// @param timed       legs have their delay
+    RayTracer(const RaySea& sea, double launch_rad, double stop_m, bool timed);
 
     /// The next leg; false when the ray has ended before it.
     bool next(Leg& leg);
@@ -72,7 +73,7 @@ private:
     std::size_t strip_, layer_ = 0;
     std::size_t facet_ = 0;  // of the wall that was hit
     Touch launch_touch_ = Touch::none;
-    bool ended_ = false;
+    bool timed_, ended_ = false;
 };
 
 }  // namespace seautils::propagation
