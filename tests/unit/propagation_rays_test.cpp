@@ -1,4 +1,5 @@
-// Rays against closed forms: straight ones and their images, arcs, cycles; and worlds at the edge of sense.
+// Rays against closed forms: straight ones and their images, arcs, cycles; and worlds at the edge
+// of sense.
 #include "seautils/propagation/rays.hpp"
 
 #include <gtest/gtest.h>
@@ -128,7 +129,8 @@ TEST(Rays, ArcInALinearGradient) {
 }
 
 TEST(Rays, SlownessSquaredLinearIsAParabola) {
-    // With 1/c² = N0 + b z a ray is a parabola: a = cosθ/c0, p = sinθ/c0: r = aσ, z = z0 + pσ + bσ²/4.
+    // With 1/c² = N0 + b z a ray is a parabola: a = cosθ/c0, p = sinθ/c0: r = aσ, z = z0 + pσ +
+    // bσ²/4.
     auto environment = gradient();
     environment.water.interpolation = SpeedInterpolation::n2_linear;
     const double n0 = 1 / (1500. * 1500), b = (1 / (1530. * 1530) - n0) / 600;
@@ -239,8 +241,8 @@ TEST(Rays, LevelLinesAreLevel) {
 }
 
 TEST(Rays, EnergyOfAChannelWithPerfectWalls) {
-    // Nothing is lost: of a launch interval dα, cosα dα / r goes through a column, at the angle α to its normal: over
-    // depth its intensities add up to dα / r.
+    // Nothing is lost: of a launch interval dα, cosα dα / r goes through a column, at the angle α
+    // to its normal: over depth its intensities add up to dα / r.
     auto environment = channel();
     environment.bottom = {};
     environment.bottom.kind = BoundaryKind::rigid;

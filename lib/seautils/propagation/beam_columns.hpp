@@ -56,8 +56,9 @@ private:
     std::vector<std::uint32_t> bin_;
 };
 
-/// Receivers as beams meet them: columns, each with the depths at which beams are added there. Where no beam is narrow
-/// those are fewer than the receivers', and the loss in between is interpolated.
+/// Receivers as beams meet them: columns, each with the depths at which beams are added there.
+/// Where no beam is narrow those are fewer than the receivers', and the loss in between is
+/// interpolated.
 class Columns {
 public:
     /// @param receivers  ranges and depths grow

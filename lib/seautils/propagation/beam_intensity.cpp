@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-// Loops over four floats at a time are for the compiler to make vectors of: no calls, no branches in them.
+// Loops over four floats at a time are for the compiler to make vectors of: no calls, no branches
+// in them.
 
 namespace seautils::propagation {
 namespace {
@@ -13,8 +14,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr float gaussian_reach = 4;  // in widths
-/// A narrow beam is a hat as wide as its neighbour is far, from this many least widths on: there a hat is as wide, rms,
-/// as a Gaussian of the least width.
+/// A narrow beam is a hat as wide as its neighbour is far, from this many least widths on: there a
+/// hat is as wide, rms, as a Gaussian of the least width.
 constexpr float hat_from = 2.2F;
 constexpr float hat_rms = 0.45F;
 

@@ -16,14 +16,16 @@ struct Spots {
     using Floats = std::array<float, most>;
     std::size_t count = 0;
     std::array<std::uint32_t, most> column;
-    // What they are made of: the arc up to the column, speed at its beginning, and what the ray has gathered.
+    // What they are made of: the arc up to the column, speed at its beginning, and what the ray has
+    // gathered.
     Floats cosine, sine, turn, along_m, depth_m, speed_mps, gradient, width_m, least_m, energy;
     // What follows: the kernel over depth, and how far it reaches.
     Floats height, steepness, half_m, mirrored;
     std::array<std::uint8_t, most> hat;
 };
 
-/// Sums intensities of beams over columns, spec §7: the energy of a beam spread over a kernel of unit area, in floats.
+/// Sums intensities of beams over columns, spec §7: the energy of a beam spread over a kernel of
+/// unit area, in floats.
 class IntensitySum {
 public:
     IntensitySum(const RaySea& sea, const Columns& columns, const BeamKind& kind);

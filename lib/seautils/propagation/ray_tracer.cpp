@@ -29,7 +29,8 @@ double slowing(double x) {
     return std::asinh(x) / x;
 }
 
-/// ∫c ds: Simpson's rule on a flat arc, else what runs along the lines of equal speed over its share of the slowness.
+/// ∫c ds: Simpson's rule on a flat arc, else what runs along the lines of equal speed over its
+/// share of the slowness.
 double spread_of(const Leg& leg, const Advance& to, double end_speed_mps, double chord_m) {
     const double u = 0.5 * leg.curvature * chord_m, u2 = u * u;
     if (u2 < 0.003) {
@@ -58,7 +59,8 @@ void measure(const Leg& leg, Advance& to, bool timed) {
     to.spread = spread_of(leg, to, end_speed_mps, chord_m);
 }
 
-/// Where a ray at a distance from a straight wall meets it, in the wall's frame: `along` it, at that angle.
+/// Where a ray at a distance from a straight wall meets it, in the wall's frame: `along` it, at
+/// that angle.
 struct Meeting {
     bool is = false;
     double along_m = 0, cosine = 1, sine = 0;
@@ -131,7 +133,8 @@ void RayTracer::begin(Leg& leg) const {
     leg.touch = Touch::none;
 }
 
-/// Up to the edge of the layer that it runs to, or back to the one it came from where it turns before.
+/// Up to the edge of the layer that it runs to, or back to the one it came from where it turns
+/// before.
 RayTracer::End RayTracer::to_layer(Leg& leg) const {
     const double top_m = sea_.layer_edge_m[layer_], floor_m = sea_.layer_edge_m[layer_ + 1];
     Advance& to = leg.whole;
@@ -246,7 +249,8 @@ static Slope slope_at(const Facet& f, double range_m) {
     return s;
 }
 
-/// A mirror: a reflection is a crossing into the mirrored water, and a curved wall bends the front besides.
+/// A mirror: a reflection is a crossing into the mirrored water, and a curved wall bends the front
+/// besides.
 void RayTracer::reflect(Leg& leg, const Wall& wall, Touch touch) {
     const double out = touch == Touch::bottom ? 1 : -1;
     if (wall.level) depth_m_ = wall.depth_m;
