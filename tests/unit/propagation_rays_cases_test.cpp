@@ -1,4 +1,5 @@
-// Rays against the reference fields and arrivals of ../shared/cases, to the tolerances of specs/acoustics-accuracy.md.
+// Rays against the reference fields and arrivals of ../shared/cases, to the tolerances of
+// specs/acoustics-accuracy.md.
 #include "sanitized.hpp"
 
 #include "seautils/propagation/rays.hpp"
@@ -125,7 +126,8 @@ struct Case {
     }
 };
 
-/// Intensity averaged over 5 depths and 9 ranges; edges are mirrored. Only cells in the water count.
+/// Intensity averaged over 5 depths and 9 ranges; edges are mirrored. Only cells in the water
+/// count.
 std::vector<double> smoothed(const std::vector<double>& loss, const std::vector<double>& water,
                              int depths, int ranges) {
     const auto mirrored = [](int k, int n) { return k < 0 ? -k - 1 : k >= n ? 2 * n - 1 - k : k; };

@@ -1,4 +1,5 @@
-// Rays against closed forms: straight ones and their images, arcs, cycles; and worlds at the edge of sense.
+// Rays against closed forms: straight ones and their images, arcs, cycles; and worlds at the edge
+// of sense.
 #include "seautils/propagation/rays.hpp"
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace seautils::propagation {
@@ -74,6 +76,11 @@ FieldOptions hat(Sum sum) {
     return options;
 }
 
+/// To the first receiver.
+std::vector<Arrival> paths(const Environment& sea) {
+    return std::move(ray_arrivals(sea, {}).front().arrivals);
+}
+
 TEST(Rays, LloydMirrorCoherentIncoherentAndSemiCoherent) {
     // Spec §9: the exact field of a source and its image.
     const double coherent[] = {50.559, 68.697, 48.686, 66.685};
@@ -122,7 +129,8 @@ TEST(Rays, ArcInALinearGradient) {
 }
 
 TEST(Rays, SlownessSquaredLinearIsAParabola) {
-    // With 1/c² = N0 + b z a ray is a parabola: a = cosθ/c0, p = sinθ/c0: r = aσ, z = z0 + pσ + bσ²/4.
+    // With 1/c² = N0 + b z a ray is a parabola: a = cosθ/c0, p = sinθ/c0: r = aσ, z = z0 + pσ +
+    // bσ²/4.
     auto environment = gradient();
     environment.water.interpolation = SpeedInterpolation::n2_linear;
     const double n0 = 1 / (1500. * 1500), b = (1 / (1530. * 1530) - n0) / 600;
@@ -134,7 +142,7 @@ TEST(Rays, SlownessSquaredLinearIsAParabola) {
     const double delay_s = sigma * (a * a + (p * p + p * end + end * end) / 3);
     environment.receivers = {{depth_m}, {6000}};
     double nearest_deg = 1, off_s = 1;
-    for (const auto& path : ray_arrivals(environment, {})[0].arrivals)
+    for (const auto& path : paths(environment))
         if (std::abs(path.launch_deg - 8) < nearest_deg) {
             nearest_deg = std::abs(path.launch_deg - 8);
             off_s = std::abs(path.delay_s - delay_s);
@@ -153,7 +161,7 @@ TEST(Rays, CyclesOfMunksProfile) {
         environment.receivers = {{1300}, {range_m[k]}};
         environment.fan = {launch[k] - 0.5, launch[k] + 0.5, 0};
         double off_deg = 1, off_s = 1;
-        for (const auto& path : ray_arrivals(environment, {})[0].arrivals)
+        for (const auto& path : paths(environment))
             if (std::abs(path.launch_deg - launch[k]) < off_deg) {
                 off_deg = std::abs(path.launch_deg - launch[k]);
                 off_s = std::abs(path.delay_s - time_s[k]);
@@ -195,7 +203,7 @@ TEST(Rays, ReciprocalUnderASlope) {
     back.source.depth_m = 40;
     back.bottom_line = Line{false, {-3000, 0, 1000, 2000}, {90, 80, 100, 100}};
     back.receivers = {{25}, {1000}};
-    const auto a = ray_arrivals(there, {})[0].arrivals, b = ray_arrivals(back, {})[0].arrivals;
+    const auto a = paths(there), b = paths(back);
     ASSERT_GT(a.size(), 8U);
     int compared = 0;
     for (const auto& path : a) {
@@ -233,8 +241,8 @@ TEST(Rays, LevelLinesAreLevel) {
 }
 
 TEST(Rays, EnergyOfAChannelWithPerfectWalls) {
-    // Nothing is lost: of a launch interval dα, cosα dα / r goes through a column, at the angle α to its normal: over
-    // depth its intensities add up to dα / r.
+    // Nothing is lost: of a launch interval dα, cosα dα / r goes through a column, at the angle α
+    // to its normal: over depth its intensities add up to dα / r.
     auto environment = channel();
     environment.bottom = {};
     environment.bottom.kind = BoundaryKind::rigid;
@@ -266,7 +274,7 @@ TEST(Rays, SameWhateverTheThreads) {
 TEST(Rays, PatternAndBaffleTakeTheirShare) {
     auto environment = lloyd();
     environment.receivers = {{100}, {500}};  // direct path 8.53° down, image 14.04°
-    const auto all = ray_arrivals(environment, {})[0].arrivals;
+    const auto all = paths(environment);
     ASSERT_EQ(all.size(), 2U);
     FieldOptions options;
     options.baffle_from_deg = 10;
@@ -275,7 +283,7 @@ TEST(Rays, PatternAndBaffleTakeTheirShare) {
     ASSERT_EQ(some.size(), 1U);
     EXPECT_EQ(some[0].surface_bounces, 0U);
     environment.source.pattern = {{-90, -20}, {-5, -20}, {5, 0}, {90, 0}};
-    const auto shaded = ray_arrivals(environment, {})[0].arrivals;
+    const auto shaded = paths(environment);
     EXPECT_NEAR(shaded[1].amplitude / all[1].amplitude, 0.1, 1e-9);  // launched upwards
     EXPECT_NEAR(shaded[0].amplitude / all[0].amplitude, 1, 1e-9);
     options.beam = Beam::hat;

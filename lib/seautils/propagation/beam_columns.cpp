@@ -6,8 +6,8 @@ namespace seautils::propagation {
 namespace {
 
 constexpr std::size_t lanes = 4;
-/// What is added at a third of the width of the narrowest beam is interpolated by cubics to 0.04 dB, three widths off
-/// a beam's axis, and better near it.
+/// What is added at a third of the width of the narrowest beam is interpolated by cubics to 0.04
+/// dB, three widths off a beam's axis, and better near it.
 constexpr double steps_per_width = 3;
 
 /// Even to a hundred thousandth of the step.
@@ -38,8 +38,8 @@ Depths::Depths(float top_m, float step_m, std::size_t count) : count_(count) {
     make_bins();
 }
 
-/// A bin begins with the number of depths above it: first one for all that lies above the top, then as many as there are
-/// depths, and one for all that lies below.
+/// A bin begins with the number of depths above it: first one for all that lies above the top, then
+/// as many as there are depths, and one for all that lies below.
 void Depths::make_bins() {
     const float span_m = depth_m_[count_ - 1] - depth_m_[0];
     const std::size_t bins = count_;
@@ -79,6 +79,9 @@ Columns::Columns(const RaySea& sea, const Receivers& receivers, const FieldOptio
         offset_.push_back(cells_);
         cells_ += depths(range_m_.size() - 1).stride();
     }
+    for (std::size_t k = 0; k < range_m_.size(); ++k)
+        views_.push_back(
+            {depths(k).data(), depths(k).finder(), surface_m_[k], bottom_m_[k], offset_[k]});
 }
 
 /// Cubic interpolation (Lagrange) between four depths.

@@ -29,16 +29,25 @@ public:
     struct Run {
         std::size_t from, to;
     };
-    Run run(float least_m, float most_m) const {
-        return {bin_[bin(least_m)], bin_[bin(most_m) + 1]};
-    }
+    Run run(float least_m, float most_m) const { return finder().run(least_m, most_m); }
+
+    /// What finds a depth, close together.
+    struct Finder {
+        const std::uint32_t* bins;
+        float top_m, per_bin, last;
+
+        std::size_t bin(float depth_m) const {
+            const float place = (depth_m - top_m) * per_bin + 1.F;
+            return place > 0 ? static_cast<std::size_t>(std::min(place, last)) : 0;
+        }
+        Run run(float least_m, float most_m) const {
+            return {bins[bin(least_m)], bins[bin(most_m) + 1]};
+        }
+    };
+    Finder finder() const { return {bin_.data(), top_m(), per_bin_, last_bin_}; }
 
 private:
     void make_bins();
-    std::size_t bin(float depth_m) const {
-        const float place = (depth_m - depth_m_.front()) * per_bin_ + 1.F;
-        return place > 0 ? static_cast<std::size_t>(std::min(place, last_bin_)) : 0;
-    }
 
     std::vector<float> depth_m_;
     std::size_t count_ = 0;
@@ -47,17 +56,28 @@ private:
     std::vector<std::uint32_t> bin_;
 };
 
-/// Receivers as beams meet them: columns, each with the depths at which beams are added there. Where no beam is narrow
-/// those are fewer than the receivers', and the loss in between is interpolated.
+/// Receivers as beams meet them: columns, each with the depths at which beams are added there.
+/// Where no beam is narrow those are fewer than the receivers', and the loss in between is
+/// interpolated.
 class Columns {
 public:
     /// @param receivers  ranges and depths grow
     /// @param beam       where it is Gaussian, no narrower than least_width_m() tells
     Columns(const RaySea& sea, const Receivers& receivers, const FieldOptions& options);
+    Columns(const Columns&) = delete;  // views point into it
+    Columns& operator=(const Columns&) = delete;
 
     const std::vector<double>& range_m() const { return range_m_; }  ///< those above 0
     const Depths& depths(std::size_t column) const { return depths_[grid_[column]]; }
     std::size_t offset(std::size_t column) const { return offset_[column]; }
+    /// All of a column that a beam asks for.
+    struct View {
+        const float* depth_m;
+        Depths::Finder finder;
+        float surface_m, bottom_m;
+        std::size_t offset;
+    };
+    const View& view(std::size_t column) const { return views_[column]; }
     std::size_t cells() const { return cells_; }
     float surface_m(std::size_t column) const { return surface_m_[column]; }
     float bottom_m(std::size_t column) const { return bottom_m_[column]; }
@@ -71,6 +91,7 @@ private:
     std::vector<std::uint32_t> grid_;
     std::vector<std::size_t> offset_;
     std::vector<float> surface_m_, bottom_m_;
+    std::vector<View> views_;
     std::size_t cells_ = 0;
 };
 

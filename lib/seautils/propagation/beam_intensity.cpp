@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-// Loops over four floats at a time are for the compiler to make vectors of: no calls, no branches in them.
+// Loops over four floats at a time are for the compiler to make vectors of: no calls, no branches
+// in them.
 
 namespace seautils::propagation {
 namespace {
@@ -13,8 +14,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr float gaussian_reach = 4;  // in widths
-/// A narrow beam is a hat as wide as its neighbour is far, from this many least widths on: there a hat is as wide, rms,
-/// as a Gaussian of the least width.
+/// A narrow beam is a hat as wide as its neighbour is far, from this many least widths on: there a
+/// hat is as wide, rms, as a Gaussian of the least width.
 constexpr float hat_from = 2.2F;
 constexpr float hat_rms = 0.45F;
 
@@ -33,8 +34,8 @@ inline float gaussian(float x) { return power_of_two(std::max(-x * x, -126.F)); 
 inline float hat(float x) { return std::max(1.F - std::abs(x), 0.F); }
 
 template <float (*kernel)(float)>
-void add_kernel(const float* depth_m, float* out, std::size_t from, std::size_t to, float middle_m,
-                float steepness, float height) {
+void add_kernel(const float* __restrict depth_m, float* __restrict out, std::size_t from,
+                std::size_t to, float middle_m, float steepness, float height) {
     for (std::size_t k = from & ~std::size_t{3}; k < to; k += 4)
         for (std::size_t lane = 0; lane < 4; ++lane)
             out[k + lane] += height * kernel((depth_m[k + lane] - middle_m) * steepness);
@@ -43,12 +44,11 @@ void add_kernel(const float* depth_m, float* out, std::size_t from, std::size_t 
 }  // namespace
 
 IntensitySum::IntensitySum(const RaySea& sea, const Columns& columns, const BeamKind& kind)
-    : sea_(sea),
-      columns_(columns),
-      kind_(kind),
-      walk_(sea, kind.legs),
-      least_of_kind_(kind.beam == Beam::hat ? 0.F : 1.F),
-      sum_(columns.cells()) {}
+    : sea_(sea), columns_(columns), kind_(kind), walk_(sea, kind.legs), sum_(columns.cells()) {
+    if (kind.beam == Beam::hat) return;
+    least_at_most_m_ = least_width_m(sea, far_m);
+    least_per_m_ = least_width_m(sea, 1e-9) * 1e9;
+}
 
 void IntensitySum::add(const Launch& launch) {
     const auto& ranges = columns_.range_m();
@@ -96,7 +96,7 @@ void IntensitySum::meet(const Leg& leg, const EnergyState& state, std::size_t co
     spots_.gradient[k] = static_cast<float>(leg.depth_gradient);
     spots_.width_m[k] = static_cast<float>(width_per_q_ * q);
     spots_.least_m[k] =
-        least_of_kind_ * static_cast<float>(least_width_m(sea_, state.length_m + path_m));
+        static_cast<float>(std::min(least_per_m_ * (state.length_m + path_m), least_at_most_m_));
     spots_.energy[k] =
         static_cast<float>(energy_ * state.amplitude * state.amplitude * fade / range_m);
     if (spots_.count == Spots::most) flush();
@@ -141,25 +141,24 @@ void IntensitySum::flush() {
 
 void IntensitySum::spread(std::size_t k) {
     const Spots& s = spots_;
-    spread(k, s.depth_m[k], s.height[k]);
+    const auto& column = columns_.view(s.column[k]);
+    spread(k, column, s.depth_m[k], s.height[k]);
     if (!kind_.mirrored || s.mirrored[k] <= 0) return;
-    const float surface_m = columns_.surface_m(s.column[k]);
-    const float bottom_m = columns_.bottom_m(s.column[k]);
-    if (s.depth_m[k] - s.half_m[k] < surface_m)
-        spread(k, 2 * surface_m - s.depth_m[k], s.mirrored[k] * s.height[k]);
-    if (s.depth_m[k] + s.half_m[k] > bottom_m)
-        spread(k, 2 * bottom_m - s.depth_m[k], s.mirrored[k] * s.height[k]);
+    if (s.depth_m[k] - s.half_m[k] < column.surface_m)
+        spread(k, column, 2 * column.surface_m - s.depth_m[k], s.mirrored[k] * s.height[k]);
+    if (s.depth_m[k] + s.half_m[k] > column.bottom_m)
+        spread(k, column, 2 * column.bottom_m - s.depth_m[k], s.mirrored[k] * s.height[k]);
 }
 
-void IntensitySum::spread(std::size_t k, float depth_m, float height) {
+inline void IntensitySum::spread(std::size_t k, const Columns::View& column, float depth_m,
+                                 float height) {
     const Spots& s = spots_;
-    const Depths& depths = columns_.depths(s.column[k]);
-    const auto [from, to] = depths.run(depth_m - s.half_m[k], depth_m + s.half_m[k]);
-    float* out = sum_.data() + columns_.offset(s.column[k]);
+    const auto [from, to] = column.finder.run(depth_m - s.half_m[k], depth_m + s.half_m[k]);
+    float* out = sum_.data() + column.offset;
     if (s.hat[k])
-        add_kernel<hat>(depths.data(), out, from, to, depth_m, s.steepness[k], height);
+        add_kernel<hat>(column.depth_m, out, from, to, depth_m, s.steepness[k], height);
     else
-        add_kernel<gaussian>(depths.data(), out, from, to, depth_m, s.steepness[k], height);
+        add_kernel<gaussian>(column.depth_m, out, from, to, depth_m, s.steepness[k], height);
 }
 
 void IntensitySum::add(const IntensitySum& other) {

@@ -16,14 +16,16 @@ struct Spots {
     using Floats = std::array<float, most>;
     std::size_t count = 0;
     std::array<std::uint32_t, most> column;
-    // What they are made of: the arc up to the column, speed at its beginning, and what the ray has gathered.
+    // What they are made of: the arc up to the column, speed at its beginning, and what the ray has
+    // gathered.
     Floats cosine, sine, turn, along_m, depth_m, speed_mps, gradient, width_m, least_m, energy;
     // What follows: the kernel over depth, and how far it reaches.
     Floats height, steepness, half_m, mirrored;
     std::array<std::uint8_t, most> hat;
 };
 
-/// Sums intensities of beams over columns, spec §7: the energy of a beam spread over a kernel of unit area, in floats.
+/// Sums intensities of beams over columns, spec §7: the energy of a beam spread over a kernel of
+/// unit area, in floats.
 class IntensitySum {
 public:
     IntensitySum(const RaySea& sea, const Columns& columns, const BeamKind& kind);
@@ -40,7 +42,7 @@ private:
     void flush();
     void shape();
     void spread(std::size_t spot);
-    void spread(std::size_t spot, float depth_m, float height);
+    void spread(std::size_t spot, const Columns::View& column, float depth_m, float height);
 
     const RaySea& sea_;
     const Columns& columns_;
@@ -48,8 +50,8 @@ private:
     BeamWalk walk_;
     std::uint64_t cut_ = 0;  // by others
     Spots spots_{};
-    double energy_ = 0, width_per_q_ = 0;  // of the ray under way
-    float least_of_kind_;                  // 0: beams may be as narrow as they will
+    double energy_ = 0, width_per_q_ = 0;           // of the ray under way
+    double least_per_m_ = 0, least_at_most_m_ = 0;  // width of a beam over its path; 0 of hats
     std::vector<float> sum_;
 };
 

@@ -33,8 +33,8 @@ struct PressureSum::Spot {
     double phase_rad = 0, phase_per_m = 0;
 };
 
-/// At even depths from the first, n widths off the ray: the exponent of a Gaussian beam is quadratic in depth, so that each
-/// value follows from the last by two products.
+/// At even depths from the first, n widths off the ray: the exponent of a Gaussian beam is
+/// quadratic in depth, so that each value follows from the last by two products.
 void PressureSum::add_evenly(const Spot& spot, bool hat, double n, double depth_m, double step_m,
                              std::complex<float>* out, const std::complex<float>* end) {
     const double step = step_m * spot.steepness;

@@ -10,7 +10,8 @@
 
 namespace seautils::propagation {
 
-/// Sums pressures of beams over columns, spec §7: a plane front about the ray. Phases in double, sums in float.
+/// Sums pressures of beams over columns, spec §7: a plane front about the ray. Phases in double,
+/// sums in float.
 class PressureSum {
 public:
     PressureSum(const RaySea& sea, const Columns& columns, const BeamKind& kind);

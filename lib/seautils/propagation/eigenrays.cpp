@@ -78,7 +78,8 @@ bool EigenraySearch::runs_one_way(const Probe& a, const Probe& b) const {
     return step_m > 0.6 * expected_m && step_m < 1.6 * expected_m;
 }
 
-/// Depths between two rays reach no farther than their steepest change allows, with something to spare.
+/// Depths between two rays reach no farther than their steepest change allows, with something to
+/// spare.
 bool EigenraySearch::may_hold_depth(const Probe& a, const Probe& b) const {
     if (!a.reached || !b.reached) return a.reached || b.reached;
     const double slack_m =
@@ -106,7 +107,8 @@ void EigenraySearch::split(const Probe& a, const Probe& b, double range_m, int h
             brackets_.push_back({a, b, static_cast<std::size_t>(depth - depth_m_.begin())});
 }
 
-/// Newton's method, kept inside the bracket.
+/// Newton's method, kept inside the bracket. The last step, of less than a microradian, is not
+/// traced again: the front is plane over it.
 Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
     const double depth_m = depth_m_[bracket.depth];
     double from = bracket.a.launch_rad, to = bracket.b.launch_rad;
@@ -117,9 +119,15 @@ Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
     for (int k = 0; k < 40; ++k) {
         at = probe(launch_rad, range_m);
         const double short_m = way * (depth_m - at.depth_m);
+        const double step_rad = short_m / at.metres_per_rad(sea_.source_speed_mps);
         if (!at.reached || std::abs(short_m) < 1e-7) break;
+        if (std::abs(short_m) < 1e-3 && std::abs(step_rad) < 1e-6) {
+            at.launch_rad += step_rad;
+            at.state.delay_s += way * short_m * at.sine / at.speed_mps;
+            break;
+        }
         (short_m > 0 ? from : to) = launch_rad;
-        launch_rad += short_m / at.metres_per_rad(sea_.source_speed_mps);
+        launch_rad += step_rad;
         if (!(launch_rad > from && launch_rad < to)) launch_rad = 0.5 * (from + to);
         if (to - from < 1e-15) break;
     }

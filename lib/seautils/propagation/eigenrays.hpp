@@ -26,8 +26,9 @@ struct Probe {
     }
 };
 
-/// Finds the rays that meet given depths at a range: between neighbours of a fan that have the same bounces behind them
-/// and no caustic between them depth runs one way; other intervals are halved, where a receiver may lie in them.
+/// Finds the rays that meet given depths at a range: between neighbours of a fan that have the same
+/// bounces behind them and no caustic between them depth runs one way; other intervals are halved,
+/// where a receiver may lie in them.
 class EigenraySearch {
 public:
     /// @param depth_m  grows
@@ -36,7 +37,8 @@ public:
 
     /// The ray of an angle at each of some ranges (which grow).
     std::vector<Probe> trace(double launch_rad, const std::vector<double>& range_m);
-    /// Calls found(depth's index, ray) for each ray between two neighbours that meets a depth, to 1e-7 m.
+    /// Calls found(depth's index, ray) for each ray between two neighbours that meets a depth, to
+    /// 1e-7 m.
     template <class Found>
     void between(const Probe& a, const Probe& b, double range_m, Found&& found) {
         brackets_.clear();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct EnergyState {
     double fade = 1;       ///< of intensity, by the water
 };
 
-/// A ray ends after so many legs, whatever the world; of a large fan, when its share of `most_legs_of_fan` is used up.
+/// A ray ends after so many legs, whatever the world; of a large fan, when its share of
+/// `most_legs_of_fan` is used up.
 inline constexpr std::uint64_t least_legs = 20'000, most_legs = 200'000;
 inline constexpr std::uint64_t most_legs_of_fan = 2'000'000'000;
 
@@ -69,12 +71,12 @@ public:
     std::uint64_t legs() const { return legs_; }
     std::uint64_t cut() const { return cut_; }
 
-    /// Calls visit(leg, state) for each leg up to `stop_m` in range, with the state at its beginning; the leg's own
-    /// range_m counts within the cycle. The ray ends there, when visit returns false, or when its amplitude is below
-    /// `least_amplitude`.
+    /// Calls visit(leg, state) for each leg up to `stop_m` in range, with the state at its
+    /// beginning; the leg's own range_m counts within the cycle. The ray ends there, when visit
+    /// returns false, or when its amplitude is below `least_amplitude`.
     template <class State, class Visit>
     void run(double launch_rad, double stop_m, double least_amplitude, Visit&& visit) {
-        RayTracer tracer(sea_, launch_rad, stop_m);
+        RayTracer tracer(sea_, launch_rad, stop_m, std::is_same_v<State, BeamState>);
         State state;
         launch(tracer, state);
         cycle_.clear();

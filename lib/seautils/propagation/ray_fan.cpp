@@ -9,13 +9,15 @@ namespace {
 
 constexpr double pi = std::numbers::pi, rad_per_deg = pi / 180;
 
-/// An automatic fan's spacing grows from that of flat rays: by √2 at this angle, in proportion to it beyond. Steep rays
-/// matter near the source, or have lost much to the bottom. Phases want all rays close.
+/// An automatic fan's spacing grows from that of flat rays: by √2 at this angle, in proportion to
+/// it beyond. Steep rays matter near the source, or have lost much to the bottom. Phases want all
+/// rays close.
 double flat_deg(const FieldOptions& options) { return options.sum == Sum::coherent ? 90 : 10; }
-/// Spacing of flat rays over 100 m of water, chosen against beams ten times as many: 0.05 dB in the median, 0.5 dB for
-/// 95 % of the cells. Deep water folds its rays more sharply.
+/// Spacing of flat rays over 100 m of water, chosen against beams ten times as many: 0.05 dB in the
+/// median, 0.5 dB for 95 % of the cells. Deep water folds its rays more sharply.
 constexpr double widest_rad = 0.0018, depth_power = -0.125;
-/// Neighbours are no farther apart at the last receiver than this part of the depth: over many bounces errors add up.
+/// Neighbours are no farther apart at the last receiver than this part of the depth: over many
+/// bounces errors add up.
 constexpr double depth_share = 0.2;
 constexpr double narrowest_rad = 2e-4;
 /// … or than this many least widths of a Gaussian beam: those blur what lies between.

@@ -14,16 +14,16 @@ inline constexpr std::uint32_t most_automatic_beams = 100'000;
 /// Amplitude of a source in a direction: linear between its points; 1 without any.
 double level_at(const std::vector<PatternPoint>& pattern, double angle_deg);
 
-/// The environment's fan: as many beams as it says, equally spaced from end to end; else as many as the sum needs, at
-/// most `most_automatic_beams`, densest where they are flat.
+/// The environment's fan: as many beams as it says, equally spaced from end to end; else as many as
+/// the sum needs, at most `most_automatic_beams`, densest where they are flat.
 std::vector<Launch> make_fan(const Environment& environment, const RaySea& sea,
                              const FieldOptions& options);
 
 /// A fan whose neighbours bracket the rays that meet receivers.
 std::vector<Launch> make_bracketing_fan(const Environment& environment, const RaySea& sea);
 
-/// How the beams of that fan are added: as the Acoustics Toolbox does where the environment gives their number. Of an
-/// automatic fan, Gaussian beams are narrower, so that fewer do.
+/// How the beams of that fan are added: as the Acoustics Toolbox does where the environment gives
+/// their number. Of an automatic fan, Gaussian beams are narrower, so that fewer do.
 BeamKind beam_kind(const Environment& environment, const FieldOptions& options);
 
 }  // namespace seautils::propagation

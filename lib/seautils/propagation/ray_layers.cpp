@@ -39,7 +39,8 @@ double end_slope(double h0, double h1, double s0, double s1) {
     return slope;
 }
 
-/// Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5, 300 (1984): weighted harmonic means of the secants.
+/// Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5, 300 (1984): weighted harmonic means of the
+/// secants.
 std::vector<double> pchip_slopes(const Profile& profile) {
     const std::size_t n = profile.size();
     std::vector<double> slopes(n, secant(profile, 0));
@@ -57,8 +58,8 @@ std::vector<double> pchip_slopes(const Profile& profile) {
     return slopes;
 }
 
-/// Slopes of the cubic spline whose third derivative is continuous at the second point and the last but one. Of three
-/// points it is their parabola.
+/// Slopes of the cubic spline whose third derivative is continuous at the second point and the last
+/// but one. Of three points it is their parabola.
 std::vector<double> spline_slopes(const Profile& profile) {
     const std::size_t n = profile.size();
     if (n < 3) return pchip_slopes(profile);

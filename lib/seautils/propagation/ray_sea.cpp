@@ -12,7 +12,8 @@ namespace seautils::propagation {
 namespace {
 
 constexpr double db_per_km_of_neper_per_m = 8685.889638;
-/// A strip is so narrow that its gradient over depth differs from that of the mesh by no more than 0.02 m/s a layer.
+/// A strip is so narrow that its gradient over depth differs from that of the mesh by no more than
+/// 0.02 m/s a layer.
 constexpr double strip_error_mps = 0.02;
 constexpr double most_strips = 2000;
 
@@ -135,8 +136,8 @@ Facet straight(double r0, double z0, double r1, double z1) {
     return facet;
 }
 
-/// Between curved points a facet has the mean direction of its neighbours at each end, and the curvature that takes the
-/// one to the other.
+/// Between curved points a facet has the mean direction of its neighbours at each end, and the
+/// curvature that takes the one to the other.
 void bend(std::vector<Facet>& facets) {
     const auto angle = [&](std::size_t k) { return std::atan2(facets[k].sine, facets[k].cosine); };
     for (std::size_t k = 1; k + 1 < facets.size(); ++k) {

@@ -11,8 +11,8 @@ namespace seautils::propagation {
 /// Farther than any ray: where the outermost strips, layers and walls end.
 inline constexpr double far_m = 1e9;
 
-/// A rectangle of water: c = speed + range_gradient·Δr + depth_gradient·Δz + twist·Δr·Δz about its middle (about its
-/// inner edge, where it runs to far_m).
+/// A rectangle of water: c = speed + range_gradient·Δr + depth_gradient·Δz + twist·Δr·Δz about its
+/// middle (about its inner edge, where it runs to far_m).
 struct Cell {
     double range_m = 0, depth_m = 0, speed_mps = 0;
     double range_gradient = 0, depth_gradient = 0, twist = 0;

@@ -29,7 +29,8 @@ double slowing(double x) {
     return std::asinh(x) / x;
 }
 
-/// ∫c ds: Simpson's rule on a flat arc, else what runs along the lines of equal speed over its share of the slowness.
+/// ∫c ds: Simpson's rule on a flat arc, else what runs along the lines of equal speed over its
+/// share of the slowness.
 double spread_of(const Leg& leg, const Advance& to, double end_speed_mps, double chord_m) {
     const double u = 0.5 * leg.curvature * chord_m, u2 = u * u;
     if (u2 < 0.003) {
@@ -45,18 +46,21 @@ double spread_of(const Leg& leg, const Advance& to, double end_speed_mps, double
            level;
 }
 
-/// Length, delay and spread of an advance whose ends are known.
-void measure(const Leg& leg, Advance& to) {
+/// Length, delay (where it is wanted) and spread of an advance whose ends are known.
+void measure(const Leg& leg, Advance& to, bool timed) {
     const double end_speed_mps =
         leg.speed_mps + leg.range_gradient * to.along_m + leg.depth_gradient * to.down_m;
     const double chord_m = std::sqrt(to.along_m * to.along_m + to.down_m * to.down_m);
-    const double slowness = 1 / std::sqrt(leg.speed_mps * end_speed_mps);
     to.length_m = chord_m * arc_over_chord(0.5 * leg.curvature * chord_m);
-    to.delay_s = chord_m * slowness * slowing(0.5 * leg.gradient * chord_m * slowness);
+    if (timed) {
+        const double slowness = 1 / std::sqrt(leg.speed_mps * end_speed_mps);
+        to.delay_s = chord_m * slowness * slowing(0.5 * leg.gradient * chord_m * slowness);
+    }
     to.spread = spread_of(leg, to, end_speed_mps, chord_m);
 }
 
-/// Where a ray at a distance from a straight wall meets it, in the wall's frame: `along` it, at that angle.
+/// Where a ray at a distance from a straight wall meets it, in the wall's frame: `along` it, at
+/// that angle.
 struct Meeting {
     bool is = false;
     double along_m = 0, cosine = 1, sine = 0;
@@ -81,17 +85,18 @@ Advance Leg::part(double along_m) const {
     to.sine = std::clamp(sine + curvature * along_m, -1., 1.);
     to.cosine = std::copysign(root_of_rest(to.sine), cosine);
     to.down_m = along_m * (sine + to.sine) / (cosine + to.cosine);
-    measure(*this, to);
+    measure(*this, to, true);
     return to;
 }
 
-RayTracer::RayTracer(const RaySea& sea, double launch_rad, double stop_m)
+RayTracer::RayTracer(const RaySea& sea, double launch_rad, double stop_m, bool timed)
     : sea_(sea),
       stop_m_(stop_m),
       depth_m_(sea.source_depth_m),
       cosine_(std::cos(launch_rad)),
       sine_(away_from_zero(std::sin(launch_rad))),
-      strip_(sea.strip_at(0)) {
+      strip_(sea.strip_at(0)),
+      timed_(timed) {
     const bool on_surface = sea.surface.level && depth_m_ <= sea.surface.depth_m && sine_ < 0;
     const bool on_bottom = sea.bottom.level && depth_m_ >= sea.bottom.depth_m && sine_ > 0;
     if (on_surface || on_bottom) {
@@ -128,7 +133,8 @@ void RayTracer::begin(Leg& leg) const {
     leg.touch = Touch::none;
 }
 
-/// Up to the edge of the layer that it runs to, or back to the one it came from where it turns before.
+/// Up to the edge of the layer that it runs to, or back to the one it came from where it turns
+/// before.
 RayTracer::End RayTracer::to_layer(Leg& leg) const {
     const double top_m = sea_.layer_edge_m[layer_], floor_m = sea_.layer_edge_m[layer_ + 1];
     Advance& to = leg.whole;
@@ -243,7 +249,8 @@ static Slope slope_at(const Facet& f, double range_m) {
     return s;
 }
 
-/// A mirror: a reflection is a crossing into the mirrored water, and a curved wall bends the front besides.
+/// A mirror: a reflection is a crossing into the mirrored water, and a curved wall bends the front
+/// besides.
 void RayTracer::reflect(Leg& leg, const Wall& wall, Touch touch) {
     const double out = touch == Touch::bottom ? 1 : -1;
     if (wall.level) depth_m_ = wall.depth_m;
@@ -266,7 +273,7 @@ void RayTracer::arrive(Leg& leg, End end) {
     depth_m_ += leg.whole.down_m;
     cosine_ = leg.whole.cosine;
     sine_ = leg.whole.sine;
-    measure(leg, leg.whole);
+    measure(leg, leg.whole, timed_);
     const double twist = cell().twist;
     if (twist != 0 && leg.whole.length_m > 0)
         leg.kick += 2 * twist * leg.whole.along_m * leg.whole.down_m /

@@ -18,8 +18,8 @@ struct Advance {
     double length_m = 0, delay_s = 0, spread = 0;
 };
 
-/// An arc of a circle in water of constant gradient, and what happens at its end: the paraxial p changes by kick·q (at
-/// the end of the arc), then a wall may reflect.
+/// An arc of a circle in water of constant gradient, and what happens at its end: the paraxial p
+/// changes by kick·q (at the end of the arc), then a wall may reflect.
 struct Leg {
     double range_m = 0, depth_m = 0, cosine = 1, sine = 0;  ///< where it begins
     double curvature = 0;                                   ///< dθ/ds, 1/m
@@ -36,13 +36,14 @@ struct Leg {
     Advance part(double along_m) const;
 };
 
-/// Traces one ray, leg by leg. Spec: arcs in layers of linear c, §6.1; in the cells of a mesh the gradient is that of the
-/// middle of the leg's cell.
+/// Traces one ray, leg by leg. Spec: arcs in layers of linear c, §6.1; in the cells of a mesh the
+/// gradient is that of the middle of the leg's cell.
 class RayTracer {
 public:
     /// @param launch_rad  -π/2 to π/2, down is positive
     /// @param stop_m      range at which it ends
-    RayTracer(const RaySea& sea, double launch_rad, double stop_m);
+    /// @param timed       legs have their delay
+    RayTracer(const RaySea& sea, double launch_rad, double stop_m, bool timed);
 
     /// The next leg; false when the ray has ended before it.
     bool next(Leg& leg);
@@ -72,7 +73,7 @@ private:
     std::size_t strip_, layer_ = 0;
     std::size_t facet_ = 0;  // of the wall that was hit
     Touch launch_touch_ = Touch::none;
-    bool ended_ = false;
+    bool timed_, ended_ = false;
 };
 
 }  // namespace seautils::propagation

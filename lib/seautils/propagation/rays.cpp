@@ -17,8 +17,8 @@
 namespace seautils::propagation {
 namespace {
 
-/// Beams are added in so many blocks, each on its own, then block to block: the sums are the same whatever the number
-/// of threads. Fewer where the grid is large.
+/// Beams are added in so many blocks, each on its own, then block to block: the sums are the same
+/// whatever the number of threads. Fewer where the grid is large.
 std::size_t blocks_of(std::size_t cells) {
     return std::clamp<std::size_t>(4'000'000 / (cells + 1), 2, 8);
 }

@@ -7,15 +7,17 @@
 
 namespace seautils::propagation {
 
-/// Loss by geometric beams around rays, in the conventions of the Acoustics Toolbox. The profile is traced in at most 2000
-/// layers of linear c, a mesh in at most as many strips of range; a ray ends after 200,000 legs, or after less in a fan of
-/// more than 10,000; an automatic fan has at most 100,000 beams. The basis remarks on what was cut. Each column is met
-/// where a ray crosses it; rays end at range 0. The same bits whatever the number of threads.
+/// Loss by geometric beams around rays, in the conventions of the Acoustics Toolbox. The profile is
+/// traced in at most 2000 layers of linear c, a mesh in at most as many strips of range; a ray ends
+/// after 200,000 legs, or after less in a fan of more than 10,000; an automatic fan has at most
+/// 100,000 beams. The basis remarks on what was cut. Each column is met where a ray crosses it;
+/// rays end at range 0. The same bits whatever the number of threads.
 /// @throws DataError  check() does
 Field ray_field(const Environment& environment, const FieldOptions& options);
 
-/// All paths from the source to each receiver, depth by depth, each refined to its own launch angle: it meets the receiver
-/// to 1e-7 m. Pairs of rays that lie closer than 4 millionths of the fan's spacing may be missed. None at range 0.
+/// All paths from the source to each receiver, depth by depth, each refined to its own launch
+/// angle: to a microradian at most, and its delay to 1e-9 s. Pairs of rays that lie closer than 4
+/// millionths of the fan's spacing may be missed. None at range 0.
 /// @throws DataError  check() does; finding them would take minutes
 std::vector<ReceiverArrivals> ray_arrivals(const Environment& environment,
                                            const FieldOptions& options);
