@@ -455,3 +455,54 @@ END
     assert_equal "$(wc -l < got)" 20001
     [[ $(awk "BEGIN { print ($seconds < 5 && $kib < 65536) }") == 1 ]] || fail "$seconds s, $kib KiB"
 }
+
+# --- with tl-model ---
+
+# need_model: tl-model, and the shared cases.
+need_model() {
+    command -v tl-model > /dev/null || skip "tl-model is not built"
+    cases=$SEAUTILS_SHARED/cases
+    [[ -d $cases ]] || skip "the cases of $cases are not there"
+}
+
+# curves GRID RATE HORIZON: a decision for each of a hundred ranges of the grid
+curves() {
+    awk -F, -v rate="$2" 'NR == 1 { for (k = 2; k < NF - 20; k += (NF - 22) / 100) printf "{\"depth_m\":50,\"range_m\":%s,\"range_rate_mps\":%s}\n", $int(k), rate; exit }' "$1" |
+        depth-plan acomms --loss "$1" --horizon "$3"
+}
+
+@test "depth-plan acomms: the depth by the losses of tl-model is as good as that by the reference's" {
+    need_model
+    # specs/acoustics-accuracy.md, row F: one cell of the grid, or 0.005 of utility
+    while read -r case rate horizon; do
+        zcat "$cases/$case/csv/bellhop_gauss_inc.csv.gz" > reference.csv
+        tl-model --format csv "$cases/$case/case.json" > ours.csv
+        curves reference.csv "$rate" "$horizon" > reference
+        curves ours.csv "$rate" "$horizon" > ours
+        run jq -n --slurpfile a reference --slurpfile b ours '[range($a | length) as $k | $a[$k] as $r | $b[$k] as $o
+            | ($r.curve_depth_m | index($r.depth_m)) as $i | ($r.curve_depth_m | index($o.depth_m)) as $j
+            | ($i - $j | fabs) <= 1 or $r.curve_utility[$j] >= $r.utility - 0.005] | length, (map(select(.)) | length)'
+        assert [ "${lines[0]}" -ge 90 ]
+        assert_equal "$case ${lines[1]}" "$case ${lines[0]}"
+    done << 'END'
+p1-glint10-25k 1.47 120
+p7-pacific-300 5 600
+END
+}
+
+@test "depth-plan acomms: tl-model as its partner" {
+    need_model
+    tl-model --help | grep -q -e '--base' || skip "this tl-model takes no --base"
+    plan=(depth-plan acomms --model "tl-model --base $cases/p1-glint10-25k/case.json")
+    here='{"depth_m":20,"range_m":500,"range_rate_mps":1.47,"contact":{"depth_m":30}}'
+    run_quiet "${plan[@]}" <<< "$here"$'\n'"${here/500/520}"$'\n'"${here/:30/:60}"
+    assert_equal "${#lines[@]}" 3
+    # by the grid of the case itself
+    tl-model --format csv "$cases/p1-glint10-25k/case.json" > p1.csv
+    by_grid=$(depth-plan acomms --loss p1.csv <<< "$here" | field .tl_db)
+    run awk "BEGIN { d = $(field .tl_db <<< "${lines[0]}") - $by_grid; exit !(d < 0.5 && d > -0.5) }"
+    [[ $status -eq 0 ]] || fail "$(field .tl_db <<< "${lines[0]}") where the grid has $by_grid"
+    run -1 --separate-stderr "${plan[@]}" <<< '{"depth_m":20,"range_m":500,"contact":{"depth_m":5000}}'
+    assert_regex "$stderr" "depth-plan: <stdin>:1: model 'tl-model --base .*: source.depth_m 5000 is outside 0 to 110 m$"
+    assert_equal "$(field '[.depth_m, .reason]' <<< "$output")" '[null,"no losses are known"]'
+}

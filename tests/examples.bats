@@ -126,3 +126,21 @@ convert() { # ROW...: what to-ndjson.awk makes of rows of time, latitude, longit
 more|too many words (usage: run [-w WARP] [-d SECONDS] [-s SEED] [-k FOLDER])
 CASES
 }
+
+@test "examples: the studies of depths go from the environment to the picture" {
+    command -v tl-model > /dev/null || skip "tl-model is not built"
+    command -v gnuplot > /dev/null || skip "gnuplot is not installed"
+    run_quiet "$examples/depth/glint10" glint10
+    assert_equal "$(jq -s 'length, (map(select(.rule == "BEST")) | length)' glint10/decisions.ndjson | xargs)" '9 9'
+    # the best depth sinks with range as far as a limit lets it
+    assert_equal "$(jq -s '[.[2:8][].depth_m] | . == sort and .[-1] == 95' glint10/decisions.ndjson)" true
+    # the threshold of the log is that with which it was drawn
+    assert_equal "$(jq 'select(.threshold_db) | .threshold_db > 54.5 and .threshold_db < 57.5' glint10/receipt.ndjson)" true
+    run_quiet "$examples/depth/pacific" pacific
+    assert_equal "$(jq -s 'length, all(.[]; (.pitch_deg | fabs) <= 20 and .depth_m <= 5000)' pacific/decisions.ndjson | xargs)" '70 true'
+    # 20 degrees at 1.5 m/s for two minutes: 61.6 m
+    assert_equal "$(jq -s '[.[0].rule, .[1].own_depth_m]' -c pacific/decisions.ndjson)" '["STEEPEST",4938.4]'
+    assert [ -s glint10/depths.png ]
+    assert [ -s glint10/receipt.png ]
+    assert [ -s pacific/track.png ]
+}
