@@ -17,7 +17,7 @@ tools() {
 help_of() {
     local command
     "$1" --help
-    for command in $("$1" --help | sed -n '/^Commands/,/^$/s/^  \([a-z]*\) .*/\1/p'); do "$1" "$command" --help; done
+    for command in $("$1" --help | sed -n '/^Commands/,/^$/s/^  \([a-z-]*\) .*/\1/p'); do "$1" "$command" --help; done
 }
 
 @test "man: each page names the options that --help names, and no others" {
