@@ -1,5 +1,6 @@
 #!/usr/bin/env bats
 # tl-model computes transmission loss and arrivals, from files and for requests.
+# shellcheck disable=SC2016  # the variables of a stand-in are its own
 
 setup() {
     load test_helper
