@@ -18,6 +18,8 @@ constexpr Complex i{0, 1};
 constexpr double pi = std::numbers::pi;
 constexpr double free_admittance = 1e12;  ///< of no pressure, 1/m
 
+/// So many dB a wavelength to the letter: reflection_coefficient() has the speed complex in its place, as the Acoustics
+/// Toolbox does, which differs by the square of the loss.
 Complex squared_wavenumber(double frequency_hz, double speed_mps, double db_per_wavelength) {
     const double loss = db_per_wavelength / (2 * pi * db_per_neper);
     const Complex k = 2 * pi * frequency_hz / speed_mps * Complex(1, loss);

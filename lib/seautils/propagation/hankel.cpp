@@ -25,15 +25,27 @@ Complex by_powers(const Complex& x) {
     return (j + i * y) * std::exp(-i * x);
 }
 
+Complex times(const Complex& a, const Complex& b) {
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
 Complex by_inverse_powers(const Complex& x) {
-    const Complex inverse = -i / (8.0 * x);
+    const double size = x.real() * x.real() + x.imag() * x.imag();
+    const Complex inverse = Complex(-x.imag(), -x.real()) / (8 * size);  // -i / 8x
+    // The root in the right half plane; x is not far from the real axis, or well above it.
+    const double length = std::sqrt(size), re = std::sqrt((length + x.real()) / 2);
+    const Complex root = re > 0.1 ? Complex(re, x.imag() / (2 * re)) : std::sqrt(x);
+    const double scale = std::sqrt(2 / pi) / length;
     Complex term = 1, sum = 1;
-    for (int k = 1; k < 9; ++k) {
+    const int terms = size > 1e4 ? 3 : 8;
+    for (int k = 1; k <= terms; ++k) {
         const double odd = 2 * k - 1;
-        term *= inverse * (odd * odd) / static_cast<double>(k);
+        term = times(term, inverse) * (odd * odd / k);
         sum += term;
     }
-    return std::sqrt(2.0 / (pi * x)) * std::exp(-i * (pi / 4)) * sum;
+    // √(2/πx) exp(-iπ/4)
+    const Complex quarter{std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2};
+    return times(times(std::conj(root) * scale, quarter), sum);
 }
 
 }  // namespace

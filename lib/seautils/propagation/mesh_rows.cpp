@@ -112,7 +112,7 @@ void TwistedRows::set_edges(const Xis& xi) {
 
 void TwistedRows::factor(const Xis& xi) {
     constexpr std::size_t n = polish_lanes;
-    constexpr double tiny = 1e-200;  // no pivot is 0
+    constexpr double tiny = 1e-100;  // no pivot is 0; a mode's zero may lie on a node
     const double c = mesh_.step_m * mesh_.step_m / 12;
     Lane x, y;
     for (std::size_t l = 0; l < n; ++l) x[l] = xi[l].real(), y[l] = xi[l].imag();
@@ -127,8 +127,8 @@ void TwistedRows::factor(const Xis& xi) {
     Row inverse{};
     for (std::size_t j = mesh_.first; j <= mesh_.last; ++j) {
         for (std::size_t l = 0; l < n; ++l) {
-            const double re = a_[j].re[l] - inverse.re[l], im = a_[j].im[l] - inverse.im[l];
-            const double scale = 1 / (re * re + im * im + tiny);
+            const double re = a_[j].re[l] - inverse.re[l] + tiny, im = a_[j].im[l] - inverse.im[l];
+            const double scale = 1 / (re * re + im * im);
             inverse.re[l] = re * scale;
             inverse.im[l] = -im * scale;
         }
@@ -140,8 +140,8 @@ void TwistedRows::factor(const Xis& xi) {
     for (std::size_t j = mesh_.last + 1; j-- > mesh_.first;) {
         const Row* above = j > mesh_.first ? &down_[j - 1] : nullptr;
         for (std::size_t l = 0; l < n; ++l) {
-            const double re = a_[j].re[l] - inverse.re[l], im = a_[j].im[l] - inverse.im[l];
-            const double scale = 1 / (re * re + im * im + tiny);
+            const double re = a_[j].re[l] - inverse.re[l] + tiny, im = a_[j].im[l] - inverse.im[l];
+            const double scale = 1 / (re * re + im * im);
             inverse.re[l] = re * scale;
             inverse.im[l] = -im * scale;
             const double gap_re = re - (above ? above->re[l] : 0),
@@ -196,13 +196,19 @@ TwistedRows::Shape TwistedRows::shape(std::size_t lane, std::vector<Complex>* va
                        -ratio.real() * w.imag() - ratio.imag() * w.real()};
     };
     take(middle, 1.0);
-    constexpr double forgotten = 1e-24;  // of |w|², where nothing of a sum would change
+    // Where |w|² of two rows (one may be a zero of the mode) changes nothing of a sum, all beyond does not.
+    constexpr double forgotten = 1e-24;
     Complex w = 1;
-    for (std::size_t j = middle; j-- > mesh_.first && std::norm(w) > forgotten;)
+    double before = 1;
+    for (std::size_t j = middle; j-- > mesh_.first && before + std::norm(w) > forgotten;) {
+        before = std::norm(w);
         take(j, w = step(w, get(down_[j], lane)));
-    w = 1;
-    for (std::size_t j = middle + 1; j <= mesh_.last && std::norm(w) > forgotten; ++j)
+    }
+    w = before = 1;
+    for (std::size_t j = middle + 1; j <= mesh_.last && before + std::norm(w) > forgotten; ++j) {
+        before = std::norm(w);
         take(j, w = step(w, get(up_[j], lane)));
+    }
     return {meeting(lane, middle), sum};
 }
 

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <numbers>
 
 namespace seautils::propagation {
@@ -75,6 +75,15 @@ Plan plan(const LevelSea& sea, double xi) {
     return {xi, n, modes};
 }
 
+void check_work(const Environment& e, const LevelSea& sea, std::uint64_t modes) {
+    const std::uint64_t depths = sea.depth_m.size() + 1;
+    if (modes * depths > most_mode_values ||
+        modes * depths * e.receivers.range_m.size() > most_mode_work)
+        throw DataError(fmt::format(
+            "modes: {} at {} depths and {} ranges are more than {} and {} (fewer receivers can)",
+            modes, depths, e.receivers.range_m.size(), most_mode_values, most_mode_work));
+}
+
 /// As near to the source as it is cheap.
 Plan plan(const Environment& e, const LevelSea& sea) {
     const double d = sea.column.height_m(), near = first_range_m(e);
@@ -116,24 +125,22 @@ public:
 
     void to(double range_m) {
         const double step = range_m - range_m_;
-        const bool same = std::abs(step - step_m_) <= 1e-12 * range_m;
+        const bool even = std::abs(step - step_m_) <= 1e-12 * range_m;
         for (std::size_t m = 0; m < k_.size(); ++m) {
-            if (same)
+            if (even) {
                 turned_[m] *= turn_[m];
-            else
-                turned_[m] = std::exp(i * k_[m] * range_m);
+                continue;
+            }
+            turned_[m] = std::exp(i * k_[m] * range_m);
+            turn_[m] = std::exp(i * k_[m] * step);
         }
-        if (!same && since_ == 1)
-            for (std::size_t m = 0; m < k_.size(); ++m) turn_[m] = std::exp(i * k_[m] * step);
-        step_m_ = since_ >= 1 || same ? step : step_m_;
+        step_m_ = step;
         range_m_ = range_m;
-        since_ = 1;
     }
 
 private:
     std::vector<Complex> k_, turned_, turn_;
     double range_m_ = 0, step_m_ = -1;
-    int since_ = 0;
 };
 
 struct Accumulator {
@@ -211,6 +218,7 @@ Field mode_field(const Environment& environment, const FieldOptions& options) {
     if (!holds_modes(environment))
         throw DataError("modes: a boundary reflects nothing, so there are none (rays can)");
     const Plan what = plan(environment, sea);
+    check_work(environment, sea, what.modes);
     std::vector<double> depths = sea.depth_m;
     depths.push_back(environment.source.depth_m);
     const ModeSet set = find_modes(sea.guide, what.xi, what.steps, depths);

@@ -3,14 +3,15 @@
 
 #include "seautils/propagation/field.hpp"
 
-#include <cstddef>
+#include <cstdint>
 
 namespace seautils::propagation {
 
-/// What modes may cost: how many, and how many times nodes of their mesh. What wavenumbers may: samples times
-/// receivers and (10 times) nodes. Each a few seconds.
-inline constexpr std::size_t most_modes = 5000, most_mode_nodes = 40'000'000,
-                             most_wavenumber_work = 2'000'000'000;
+/// What modes may cost: how many; times nodes of their mesh; times depths of receivers; times receivers. What
+/// wavenumbers may: samples times receivers and (10 times) nodes. Each a few seconds and some hundred megabytes.
+inline constexpr std::uint64_t most_modes = 5000, most_mode_nodes = 40'000'000,
+                               most_mode_values = 10'000'000, most_mode_work = 20'000'000'000,
+                               most_wavenumber_work = 2'000'000'000;
 
 /// Both boundaries send back what meets them at some low angle: 3 % of its amplitude at least. Else there are no
 /// modes to sum: water over water.
@@ -23,7 +24,7 @@ bool holds_modes(const Environment& environment);
 /// last of 16 trapped wavenumbers are 1.0467587796 and 0.9266745618 rad/m.
 /// @throws DataError  check() does; the sea depends on range; a source with a pattern or a line source; a
 ///                    semi-coherent sum, or a baffle: these are of rays; a boundary that is a table, or holds no modes; more
-///                    modes than most_modes, or work than most_mode_nodes, would be needed
+///                    modes, or work, than those would be needed
 Field mode_field(const Environment& environment, const FieldOptions& options);
 
 /// Loss by integration over horizontal wavenumber: all that there is in level fluid layers, and slow.

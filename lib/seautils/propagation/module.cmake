@@ -1,6 +1,7 @@
 seautils_module(NAME propagation
   SOURCES
     absorption.cpp
+    array_gain.cpp
     beam_columns.cpp
     beam_intensity.cpp
     beam_pressure.cpp

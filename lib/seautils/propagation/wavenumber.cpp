@@ -17,16 +17,24 @@ namespace {
 using Complex = std::complex<double>;
 constexpr Complex i{0, 1};
 constexpr double pi = std::numbers::pi;
-constexpr double radians_per_step = 0.35;  ///< across, of what propagates
+constexpr double radians_per_step = 0.2;  ///< across, of what propagates
 /// Samples lie so close that what wraps around comes from this much farther than the last range, and the contour so
 /// low that it arrives with this much less.
 constexpr double window = 3.5, wrapped_np = 11;
 
-/// Samples along the contour k = s - iε, s from Δk/2: evenly.
+/// Samples along a contour that leaves 0 and runs below the real axis, k = s - iε s/√(s² + (5ε)²): odd in s, so that
+/// sums of even steps converge fast.
 struct Contour {
     double step = 0, below = 0;
     std::size_t samples = 0;
-    Complex k(std::size_t n) const { return {(static_cast<double>(n) + 0.5) * step, -below}; }
+
+    double s(std::size_t n) const { return (static_cast<double>(n) + 0.5) * step; }
+    double turn() const { return 5 * below; }
+    Complex k(std::size_t n) const { return {s(n), -below * s(n) / std::hypot(s(n), turn())}; }
+    /// dk/ds
+    Complex slope(std::size_t n) const {
+        return {1, -below * std::pow(turn(), 2) / std::pow(std::hypot(s(n), turn()), 3)};
+    }
 };
 
 /// Far above the water's wavenumber what is sampled falls as exp(-s |z - zs|): to 1e-5 of the nearest receivers
@@ -156,20 +164,18 @@ private:
     std::vector<Scaled> u_, v_;
 };
 
-/// J0, for a little below the real axis.
 Complex bessel(const Complex& x) {
-    const Complex away = hankel_over_exp(x) * std::exp(i * x) / 2.0;
-    if (std::abs(x) > 60) return away;  // what comes in is e^(2 Im x) less, and turns fast
-    return away + std::conj(hankel_over_exp(std::conj(x)) * std::exp(i * std::conj(x))) / 2.0;
+    const Complex turned = std::exp(i * x);
+    return (hankel_over_exp(x) * turned + std::conj(hankel_over_exp(std::conj(x))) / turned) / 2.0;
 }
 
 /// What one sample adds at all ranges of p = 2 ∫ G J0(kr) k dk.
 void add_sample(std::vector<Complex>& pressure, const std::vector<double>& range_m,
-                const Complex& k, double weight, const std::vector<Complex>& green) {
+                const Complex& k, const Complex& weight, const std::vector<Complex>& green) {
     const std::size_t depths = green.size();
     for (std::size_t r = 0; r < range_m.size(); ++r) {
         if (range_m[r] <= 0) continue;
-        const Complex factor = 2 * weight * k * bessel(k * range_m[r]);
+        const Complex factor = 2.0 * weight * k * bessel(k * range_m[r]);
         Complex* sum = &pressure[r * depths];
         for (std::size_t z = 0; z < depths; ++z) {
             const Complex& g = green[z];
