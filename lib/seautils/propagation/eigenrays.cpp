@@ -107,7 +107,7 @@ void EigenraySearch::split(const Probe& a, const Probe& b, double range_m, int h
             brackets_.push_back({a, b, static_cast<std::size_t>(depth - depth_m_.begin())});
 }
 
-/// Newton's method, kept inside the bracket. The last step, of less than a ten-millionth, is not
+/// Newton's method, kept inside the bracket. The last step, of 2e-8 rad at most, is not
 /// traced again: the front is plane over it.
 Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
     const double depth_m = depth_m_[bracket.depth];
@@ -121,7 +121,7 @@ Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
         const double short_m = way * (depth_m - at.depth_m);
         const double step_rad = short_m / at.metres_per_rad(sea_.source_speed_mps);
         if (!at.reached || std::abs(short_m) < 1e-7) break;
-        if (std::abs(short_m) < 1e-3 && std::abs(step_rad) < 1e-7) {
+        if (std::abs(short_m) < 1e-3 && std::abs(step_rad) < 2e-8) {
             at.launch_rad += step_rad;
             at.state.delay_s += way * short_m * at.sine / at.speed_mps;
             break;
