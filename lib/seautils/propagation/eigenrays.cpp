@@ -29,8 +29,8 @@ Probe probe_on(const Leg& leg, const BeamState& state, double launch_rad, double
     return probe;
 }
 
-/// The last step of a search is not traced again: the front is plane over it, and direction changes as
-/// it did from the ray before.
+/// The last step of a search is not traced again: the front is plane over it, and direction changes
+/// as it did from the ray before.
 void step_on(Probe& at, const Probe& before, double down_m, double step_rad) {
     const double apart = at.launch_rad - before.launch_rad;
     const double turn = apart == 0 ? 0 : (at.sine - before.sine) / apart;
