@@ -196,6 +196,7 @@ FieldOptions options_of(Sum sum, Beam beam = Beam::gaussian) {
     FieldOptions options;
     options.sum = sum;
     options.beam = beam;
+    options.threads = 2;
     return options;
 }
 

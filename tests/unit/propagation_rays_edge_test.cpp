@@ -147,7 +147,7 @@ TEST(RaysAtTheEdge, LongRangeOverLittleWater) {
     auto sea = shelf();
     sea.bottom.kind = BoundaryKind::rigid;  // nothing is lost, however often it bounces
     sea.receivers.range_m = {10, 1e6};
-    sea.fan = {-80, 80, 200};
+    sea.fan = {-80, 80, 100};
     EXPECT_EQ(heard(sea), 6U);
     EXPECT_THROW(ray_arrivals(sea, {}), DataError);
     sea.water.profile.clear();

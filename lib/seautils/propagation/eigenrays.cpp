@@ -29,6 +29,17 @@ Probe probe_on(const Leg& leg, const BeamState& state, double launch_rad, double
     return probe;
 }
 
+/// The last step of a search is not traced again: the front is plane over it, and direction changes
+/// as it did from the ray before.
+void step_on(Probe& at, const Probe& before, double down_m, double step_rad) {
+    const double apart = at.launch_rad - before.launch_rad;
+    const double turn = apart == 0 ? 0 : (at.sine - before.sine) / apart;
+    at.state.delay_s += down_m * at.sine / at.speed_mps;
+    at.launch_rad += step_rad;
+    at.sine = std::clamp(at.sine + turn * step_rad, -1., 1.);
+    at.cosine = std::copysign(std::sqrt(1 - at.sine * at.sine), at.cosine);
+}
+
 }  // namespace
 
 EigenraySearch::EigenraySearch(const RaySea& sea, const std::vector<double>& depth_m,
@@ -107,23 +118,22 @@ void EigenraySearch::split(const Probe& a, const Probe& b, double range_m, int h
             brackets_.push_back({a, b, static_cast<std::size_t>(depth - depth_m_.begin())});
 }
 
-/// Newton's method, kept inside the bracket. The last step, of less than a microradian, is not
-/// traced again: the front is plane over it.
+/// Newton's method, kept inside the bracket.
 Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
     const double depth_m = depth_m_[bracket.depth];
     double from = bracket.a.launch_rad, to = bracket.b.launch_rad;
     const double way = bracket.b.depth_m > bracket.a.depth_m ? 1 : -1;
     const double part = (depth_m - bracket.a.depth_m) / (bracket.b.depth_m - bracket.a.depth_m);
     double launch_rad = from + (to - from) * part;
-    Probe at;
+    Probe at = bracket.a;
     for (int k = 0; k < 40; ++k) {
+        const Probe before = at;
         at = probe(launch_rad, range_m);
         const double short_m = way * (depth_m - at.depth_m);
         const double step_rad = short_m / at.metres_per_rad(sea_.source_speed_mps);
         if (!at.reached || std::abs(short_m) < 1e-7) break;
-        if (std::abs(short_m) < 1e-3 && std::abs(step_rad) < 1e-6) {
-            at.launch_rad += step_rad;
-            at.state.delay_s += way * short_m * at.sine / at.speed_mps;
+        if (std::abs(short_m) < 1e-3 && std::abs(step_rad) < 1e-7) {
+            step_on(at, before, depth_m - at.depth_m, step_rad);
             break;
         }
         (short_m > 0 ? from : to) = launch_rad;

@@ -15,18 +15,20 @@ constexpr double pi = std::numbers::pi, rad_per_deg = pi / 180;
 double flat_deg(const FieldOptions& options) { return options.sum == Sum::coherent ? 90 : 10; }
 /// Spacing of flat rays over 100 m of water, chosen against beams ten times as many: 0.05 dB in the
 /// median, 0.5 dB for 95 % of the cells. Deep water folds its rays more sharply.
-constexpr double widest_rad = 0.0018, depth_power = -0.125;
+constexpr double widest_rad = 0.0020, depth_power = -0.1;
 /// Neighbours are no farther apart at the last receiver than this part of the depth: over many
 /// bounces errors add up.
 constexpr double depth_share = 0.2;
 constexpr double narrowest_rad = 2e-4;
 /// … or than this many least widths of a Gaussian beam: those blur what lies between.
-constexpr double least_widths = 1.9;
+constexpr double least_widths = 2.1;
 /// Hats blur nothing: what folds rays shows.
-constexpr double hat_share = 0.6;
+constexpr double hat_share = 0.5;
 constexpr double most_rad = 0.008;
 /// Of the fringes of the source and its image in the surface, to a beam.
-constexpr double fringe_share = 0.06;
+constexpr double fringe_share = 0.06, fringe_folds = 0.75;
+/// Where the source is weak, beams stand up to this many times wider.
+constexpr double weak_most = 2;
 
 double last_range_m(const Environment& environment) {
     return std::max(environment.receivers.range_m.back(), 1e-3);
@@ -52,7 +54,8 @@ double flat_spacing_rad(const Environment& environment, const RaySea& sea,
     const double wavelength_m = sea.source_speed_mps / sea.frequency_hz;
     const bool hat = options.beam == Beam::hat;
     const double waves = hat ? 0 : least_widths * pi * wavelength_m / last_m;
-    const double folds = (hat ? hat_share : 1) * folds_rad(environment, sea);
+    const double finer = hat ? hat_share : options.sum == Sum::semi_coherent ? fringe_folds : 1;
+    const double folds = finer * folds_rad(environment, sea);
     const double spacing = std::min(std::max(folds, waves), most_rad);
     if (options.sum == Sum::semi_coherent)
         return std::min(spacing, fringe_share * wavelength_m / std::max(sea.source_depth_m, 1e-3));
@@ -76,22 +79,57 @@ std::vector<Launch> even_fan(const Environment& environment) {
     return out;
 }
 
-/// Angles flat·sinh(u), evenly in u.
-std::vector<Launch> flat_fan(const Environment& environment, double flat, double spacing_rad) {
-    const auto& fan = environment.fan;
-    const double from = std::asinh(fan.least_deg / flat);
-    const double to = std::asinh(fan.most_deg / flat);
-    const double wanted = std::ceil((to - from) * flat * rad_per_deg / spacing_rad);
-    const auto beams = static_cast<std::uint32_t>(
-        std::clamp(wanted, 16., static_cast<double>(most_automatic_beams)));
-    const double step = (to - from) / beams;
-    std::vector<Launch> out;
-    for (std::uint32_t k = 0; k < beams; ++k) {
-        const double u = from + (k + 0.5) * step;
-        out.push_back(launch_at(environment, flat * std::sinh(u), flat * std::cosh(u) * step));
-    }
-    return out;
+/// How much wider beams may stand in a direction.
+double width_of_weak(const std::vector<PatternPoint>& pattern, double loudest_db,
+                     double angle_deg) {
+    const double level = level_at(pattern, angle_deg) / std::pow(10, loudest_db / 20);
+    return std::min(weak_most, 1 / std::sqrt(std::max(level, 1e-3)));
 }
+
+/// Angles flat·sinh(u), evenly in u, or in a measure of u that is less where the source is weak.
+class FlatFan {
+public:
+    FlatFan(const Environment& environment, double flat)
+        : environment_(environment),
+          flat_(flat),
+          from_(std::asinh(environment.fan.least_deg / flat)),
+          step_((std::asinh(environment.fan.most_deg / flat) - from_) / pieces) {
+        const auto& pattern = environment.source.pattern;
+        double loudest_db = -1e9;
+        for (const auto& point : pattern) loudest_db = std::max(loudest_db, point.level_db);
+        for (int k = 0; k < pieces; ++k) {
+            const double angle_deg = flat * std::sinh(from_ + (k + 0.5) * step_);
+            width_.push_back(pattern.empty() ? 1 : width_of_weak(pattern, loudest_db, angle_deg));
+            total_ += step_ / width_.back();
+        }
+    }
+
+    std::vector<Launch> launches(double spacing_rad) const {
+        const double wanted = std::ceil(total_ * flat_ * rad_per_deg / spacing_rad);
+        const auto beams = static_cast<std::uint32_t>(
+            std::clamp(wanted, 16., static_cast<double>(most_automatic_beams)));
+        const double share = total_ / beams;
+        std::vector<Launch> out;
+        std::size_t piece = 0;
+        double before = 0;  // measure of the pieces before
+        for (std::uint32_t k = 0; k < beams; ++k) {
+            const double at = (k + 0.5) * share;
+            for (; piece + 1 < pieces && before + step_ / width_[piece] < at; ++piece)
+                before += step_ / width_[piece];
+            const double u =
+                from_ + step_ * static_cast<double>(piece) + (at - before) * width_[piece];
+            out.push_back(launch_at(environment_, flat_ * std::sinh(u),
+                                    flat_ * std::cosh(u) * share * width_[piece]));
+        }
+        return out;
+    }
+
+private:
+    static constexpr int pieces = 1000;
+    const Environment& environment_;
+    double flat_, from_, step_, total_ = 0;
+    std::vector<double> width_;
+};
 
 }  // namespace
 
@@ -111,12 +149,13 @@ double level_at(const std::vector<PatternPoint>& pattern, double angle_deg) {
 std::vector<Launch> make_fan(const Environment& environment, const RaySea& sea,
                              const FieldOptions& options) {
     if (environment.fan.beams > 0) return even_fan(environment);
-    return flat_fan(environment, flat_deg(options), flat_spacing_rad(environment, sea, options));
+    const FlatFan fan(environment, flat_deg(options));
+    return fan.launches(flat_spacing_rad(environment, sea, options));
 }
 
 std::vector<Launch> make_bracketing_fan(const Environment& environment, const RaySea& sea) {
     if (environment.fan.beams > 0) return even_fan(environment);
-    return flat_fan(environment, flat_deg({}), folds_rad(environment, sea));
+    return FlatFan(environment, flat_deg({})).launches(folds_rad(environment, sea));
 }
 
 BeamKind beam_kind(const Environment& environment, const FieldOptions& options) {

@@ -54,9 +54,7 @@ Sums add_beams(const RaySea& sea, const Columns& columns, const BeamKind& kind,
     sums.reserve(blocks);
     for (std::size_t k = 0; k < blocks; ++k) sums.emplace_back(sea, columns, kind);
     for_each_block(blocks, threads, [&](std::size_t block) {
-        for (std::size_t k = block * fan.size() / blocks; k < (block + 1) * fan.size() / blocks;
-             ++k)
-            sums[block].add(fan[k]);
+        for (std::size_t k = block; k < fan.size(); k += blocks) sums[block].add(fan[k]);
     });
     for (std::size_t k = 1; k < blocks; ++k) sums[0].add(sums[k]);
     if (sums[0].cut() > 0)

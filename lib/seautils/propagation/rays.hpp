@@ -16,7 +16,7 @@ namespace seautils::propagation {
 Field ray_field(const Environment& environment, const FieldOptions& options);
 
 /// All paths from the source to each receiver, depth by depth, each refined to its own launch
-/// angle: to a microradian at most, and its delay to 1e-9 s. Pairs of rays that lie closer than 4
+/// angle: to 1e-7 rad, and its delay to 1e-9 s. Pairs of rays that lie closer than 4
 /// millionths of the fan's spacing may be missed. None at range 0.
 /// @throws DataError  check() does; finding them would take minutes
 std::vector<ReceiverArrivals> ray_arrivals(const Environment& environment,
