@@ -23,11 +23,6 @@ void check_time(std::int64_t time_ms) {
         throw DataError("packet: a time is out of its range");
 }
 
-/// What lies `part` of `whole` on the way.
-std::int32_t between(std::int32_t from, std::int32_t to, std::int64_t part, std::int64_t whole) {
-    return static_cast<std::int32_t>(from + (std::int64_t{to} - from) * part / whole);
-}
-
 }  // namespace
 
 std::uint64_t mark_after(std::uint64_t mark, const Step& step) {
@@ -121,22 +116,10 @@ void TrackState::learn(const Step& step) {
         codec_->learn(step.fix.cell);
         horizon_->learn(step.fix.cell);
     } else {
-        learn_jump(step);
+        codec_->learn_ahead(step.ahead, last_.cell, step.fix.cell);
+        horizon_->learn_ahead(step.ahead, step.fix.cell);
     }
     note(step);
-}
-
-/// The codec takes it that the vehicle went straight on: it starts anew one interval before.
-void TrackState::learn_jump(const Step& step) {
-    const Cell &a = last_.cell, &b = step.fix.cell;
-    const std::int64_t part = step.ahead - 1, whole = step.ahead;
-    codec_->restart({between(a.x, b.x, part, whole), between(a.y, b.y, part, whole),
-                     between(a.z, b.z, part, whole)});
-    if (codec_->can_encode(b))
-        codec_->learn(b);
-    else
-        codec_->restart(b);
-    horizon_->learn_ahead(step.ahead, b);
 }
 
 void TrackState::encode(const Step& step, entropy::Encoder& out) {

@@ -57,7 +57,6 @@ public:
 
 private:
     Step full_step(std::uint32_t ahead, entropy::Decoder& in) const;
-    void learn_jump(const Step& step);
     Step decoded(const std::optional<Cell>& cell);
     void note(const Step& step);
 
