@@ -3,13 +3,15 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/random.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace seautils::position {
 
 namespace {
 
-constexpr std::uint8_t state_version = 1;
+constexpr std::uint8_t state_version = 2;
 
 /// Of a full fix where others are usual, in 1/65536: costs those 0.00035 bit.
 constexpr std::uint32_t full_chance = 16;
@@ -88,7 +90,9 @@ TrackState::TrackState(const TrackState& other)
       start_ms_(other.start_ms_),
       number_(other.number_),
       last_(other.last_),
-      mark_(other.mark_) {}
+      mark_(other.mark_),
+      mean_skipped_q8_(other.mean_skipped_q8_),
+      since_jump_(other.since_jump_) {}
 
 TrackState& TrackState::operator=(const TrackState& other) { return *this = TrackState(other); }
 
@@ -102,7 +106,17 @@ Step TrackState::step_to(const Fix& fix, std::uint32_t ahead) const {
     return {ahead, !follows, fix};
 }
 
+/// A Rice code's best parameter for a geometric distribution of that mean: the width of 0.72 of it.
+Habit TrackState::habit() const {
+    if (since_jump_ == long_since) return {};
+    const auto most = static_cast<std::uint64_t>(mean_skipped_q8_ * 184 >> 16);
+    return {true, static_cast<unsigned>(std::bit_width(most))};
+}
+
 void TrackState::note(const Step& step) {
+    const std::int64_t skipped = std::int64_t{step.ahead} - 1;
+    mean_skipped_q8_ += (skipped * 256 - mean_skipped_q8_) / 16;
+    since_jump_ = skipped > 0 ? 0 : std::min(since_jump_ + 1, long_since);
     number_ += step.ahead;
     last_ = step.fix;
     mark_ = mark_after(mark_, step);
@@ -200,6 +214,8 @@ std::string TrackState::save() const {
     put_word(out, number_);
     put_word(out, mark_);
     put(out, last_);
+    out.number(mean_skipped_q8_);
+    out.number(since_jump_);
     out.text(codec_->save());
     out.text(horizon_->save());
     return out.finish();
@@ -212,6 +228,8 @@ void TrackState::load(std::string_view state) {
     next.number_ = get_number(in);
     next.mark_ = get_word(in);
     next.last_ = get_fix(in);
+    next.mean_skipped_q8_ = in.number(0, std::int64_t{most_ahead} * 256);
+    next.since_jump_ = in.number(0, long_since);
     next.codec_->load(in.text());
     next.horizon_->load(in.text());
     in.finish();
