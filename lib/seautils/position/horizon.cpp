@@ -44,21 +44,10 @@ public:
     StrideModel(const std::vector<Known>& known, std::uint32_t ahead) : model_(situations, {}) {
         model_.widen(std::min(ahead, widest_stride));
         const std::int64_t last = known.back().number, stride = ahead;
-        const std::int64_t strides = std::min((last - known.front().number) / stride, most_strides);
-        std::size_t next = 0;  // the first one that is not before
-        bool is_cut = true;
-        for (std::int64_t number = last - strides * stride; number <= last; number += stride) {
-            for (; known[next].number < number; ++next) is_cut |= known[next].begins;
-            const bool is_there = known[next].number == number;
-            if (known[next].begins) {
-                is_cut = true;
-                if (!is_there) continue;
-            }
-            pass(is_there ? known[next].cell : between(known[next - 1], known[next], number),
-                 is_cut);
-            is_cut = false;
-            if (is_there) ++next;
-        }
+        const std::int64_t strides = (last - known.front().number) / stride;
+        // Where little is known, also what lies between.
+        if (strides < most_strides / 2) follow(known, last - stride / 2, stride);
+        follow(known, last, stride);
     }
 
     /// @param decide  as MixModel::find()
@@ -72,6 +61,26 @@ public:
     const Cell& last() const { return motion_.last; }
 
 private:
+    /// Learns the strides that end there.
+    void follow(const std::vector<Known>& known, std::int64_t last, std::int64_t stride) {
+        const std::int64_t strides = std::min((last - known.front().number) / stride, most_strides);
+        std::size_t next = 0;  // the first one that is not before
+        bool is_cut = true;
+        for (std::int64_t number = last - strides * stride; number <= last; number += stride) {
+            if (number < known.front().number) continue;
+            for (; known[next].number < number; ++next) is_cut |= known[next].begins;
+            const bool is_there = known[next].number == number;
+            if (known[next].begins) {
+                is_cut = true;
+                if (!is_there) continue;
+            }
+            pass(is_there ? known[next].cell : between(known[next - 1], known[next], number),
+                 is_cut);
+            is_cut = false;
+            if (is_there) ++next;
+        }
+    }
+
     void pass(const Cell& cell, bool is_cut) {
         if (is_cut) return motion_.restart(cell);
         const Cell& from = motion_.last;

@@ -92,6 +92,7 @@ TrackState::TrackState(const TrackState& other)
       last_(other.last_),
       mark_(other.mark_),
       mean_skipped_q8_(other.mean_skipped_q8_),
+      averaged_(other.averaged_),
       since_jump_(other.since_jump_) {}
 
 TrackState& TrackState::operator=(const TrackState& other) { return *this = TrackState(other); }
@@ -115,7 +116,9 @@ Habit TrackState::habit() const {
 
 void TrackState::note(const Step& step) {
     const std::int64_t skipped = std::int64_t{step.ahead} - 1;
-    mean_skipped_q8_ += (skipped * 256 - mean_skipped_q8_) / 16;
+    if (skipped > 0 && since_jump_ == long_since) averaged_ = 0;
+    averaged_ = std::min(averaged_ + 1, long_since);
+    mean_skipped_q8_ += (skipped * 256 - mean_skipped_q8_) / averaged_;
     since_jump_ = skipped > 0 ? 0 : std::min(since_jump_ + 1, long_since);
     number_ += step.ahead;
     last_ = step.fix;
@@ -215,6 +218,7 @@ std::string TrackState::save() const {
     put_word(out, mark_);
     put(out, last_);
     out.number(mean_skipped_q8_);
+    out.number(averaged_);
     out.number(since_jump_);
     out.text(codec_->save());
     out.text(horizon_->save());
@@ -229,6 +233,7 @@ void TrackState::load(std::string_view state) {
     next.mark_ = get_word(in);
     next.last_ = get_fix(in);
     next.mean_skipped_q8_ = in.number(0, std::int64_t{most_ahead} * 256);
+    next.averaged_ = in.number(0, long_since);
     next.since_jump_ = in.number(0, long_since);
     next.codec_->load(in.text());
     next.horizon_->load(in.text());

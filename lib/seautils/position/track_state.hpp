@@ -72,6 +72,7 @@ private:
     Fix last_;
     std::uint64_t mark_;
     std::int64_t mean_skipped_q8_ = 0;      ///< intervals between positions that stayed unknown
+    std::int64_t averaged_ = 0;             ///< steps in that mean, at most long_since
     std::int64_t since_jump_ = long_since;  ///< steps, at most that
 };
 
