@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint8_t state_version = 2;
 constexpr std::size_t most_known = 512;        ///< positions that are kept
-constexpr std::int64_t most_strides = 64;      ///< that a model learns from
+constexpr std::int64_t most_strides = 48;      ///< that a model learns from
 constexpr std::size_t situations = 64;         ///< that it remembers
 constexpr std::uint32_t widest_stride = 1024;  ///< by which its first errors are widened
 
