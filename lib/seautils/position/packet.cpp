@@ -93,10 +93,11 @@ std::size_t least_bytes(const LinkOptions& options) {
     const auto axis = [](std::int32_t least, std::int32_t most) {
         return width_of(static_cast<std::uint64_t>(most - least));
     };
-    constexpr unsigned header = 16 + 3 + 43 + 3 + 29;  // of a start whose newest is far ahead
-    constexpr unsigned time = length_bits + 43 + 2;
-    constexpr unsigned marked = 12 + 2;  // that it is full among others, and the coder's ending
-    const unsigned bits = header + time + marked + axis(a.x, b.x) + axis(a.y, b.y) + axis(a.z, b.z);
+    // Of a start whose newest position is far ahead, alone. (One of many, which is marked as full, has
+    // less of a header.)
+    constexpr unsigned header = 16 + 3 + 43 + 3 + 29;
+    constexpr unsigned time = length_bits + 43 + 2, ending = 2;
+    const unsigned bits = header + time + ending + axis(a.x, b.x) + axis(a.y, b.y) + axis(a.z, b.z);
     return (bits + 7) / 8 + options.check_bits / 8;
 }
 

@@ -45,7 +45,7 @@ void put_full(const Fix& fix, std::int64_t expected_ms, const LinkOptions& optio
 Fix get_full(std::int64_t expected_ms, const LinkOptions& options, entropy::Decoder& in);
 
 /// Bytes in which any position fits as a full fix, whatever the time and the header: packets of fewer
-/// may never carry some position. 28 with the default options.
+/// may never carry some position. 27 with the default options.
 std::size_t least_bytes(const LinkOptions& options);
 
 /// Fills the bits with zeros so that the check ends with the last byte, and puts it.
