@@ -8,7 +8,7 @@ setup() {
 
 # hashes COMPILER FLAG...: builds the program of tests/portable, and prints what it says.
 hashes() {
-    local part parts=(codecs mix thesis) jobs=() CCACHE
+    local part parts=(codecs horizon mix thesis) jobs=() CCACHE
     CCACHE=$(command -v ccache || true)
     for part in "${parts[@]}"; do
         ${CCACHE:+"$CCACHE"} "$@" -std=c++20 -I "$BATS_TEST_DIRNAME/portable" -I "$SEAUTILS_ROOT/lib" \

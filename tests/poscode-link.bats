@@ -136,6 +136,32 @@ decoded() {
     assert_equal "$(comm -13 <(expected track.csv) <(decoded))" ''
 }
 
+@test "poscode encode --auto: all of it where little is lost, the newest position where most is" {
+    slowly() { # a fix at a time, so that acknowledgements come between
+        local line
+        while read -r line; do
+            echo "$line"
+            sleep 0.02
+        done < track.csv
+    }
+    link 0 1
+    receive
+    timeout 60 poscode encode --auto --feedback acks --every 0.5 --src 2 < <(slowly) > sent
+    diff <(expected track.csv) <(decoded)
+    kill -9 "$receiver"
+    rm got sent arrived acks_sent acks
+    link 0.7 2 # both ways: one of 11 is acknowledged
+    receive
+    timeout 60 poscode encode --auto --feedback acks --every 0.02 --src 2 < <(slowly) > sent
+    for ((k = 0; k < 100; ++k)); do
+        [[ $(decoded | tail -1) != "$(expected track.csv | tail -1)" ]] || break
+        sleep 0.02
+    done
+    assert_equal "$(decoded | tail -1)" "$(expected track.csv | tail -1)"
+    assert_equal "$(comm -13 <(expected track.csv) <(decoded))" ''
+    assert [ "$(decoded | wc -l)" -lt 60 ] # those between were given up
+}
+
 @test "poscode link: packets and acknowledgements are DCCL messages, told apart in a frame by dccl-decode and by poscode" {
     poscode encode -f message --id 110 --src 2 track.csv > packets
     data=$(head -1 packets | jq -r .message.data)

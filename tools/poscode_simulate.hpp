@@ -18,7 +18,7 @@ struct SimulateOptions {
     std::vector<double> losses;
     double ack_loss = 0, delta_bits = 11.1, full_bits = 55;
     bool acks_as_data = false;
-    std::uint32_t max_bytes = 34;
+    std::uint32_t max_bytes = 34, runs = 0;
     std::string plot;
 
     void add(CLI::App& app) {
@@ -38,6 +38,10 @@ struct SimulateOptions {
             ->option_text("BITS");
         app.add_option("--max-bytes", max_bytes, "Of a packet with its check, 34")
             ->check(CLI::Range(8, 2048))
+            ->option_text("N");
+        app.add_option("--runs", runs,
+                       "How often the track is sent, for the mean; 1 to 8 by its length")
+            ->check(CLI::Range(1, 1000))
             ->option_text("N");
         app.add_option("--plot", plot, "Draw cost and age against loss: .png or .svg")
             ->option_text("FILE");
@@ -70,6 +74,10 @@ private:
                             track_.push_back({sample.time_ms, sample.cell});
                         });
         if (track_.empty()) throw DataError("there is no fix to simulate with");
+        // Chance makes less of many positions.
+        constexpr std::size_t enough = 2000, most_runs = 8;
+        runs_ = options_.runs;
+        if (runs_ == 0) runs_ = std::clamp<std::size_t>(enough / track_.size(), 1, most_runs);
     }
 
     /// Those of the thesis's Fig 3.10, and ours.
@@ -88,7 +96,8 @@ private:
               std::pair{"auto", LinkMode::automatic}}) {
             const position::LinkReport report = ours(losses, mode);
             if (report.wrong > 0) throw std::logic_error("what was decoded was not sent");
-            say(losses, name, report.cost, report.arrived);
+            say(losses, name, report.cost,
+                static_cast<double>(report.arrived) / static_cast<double>(report.sampled));
         }
     }
 
@@ -100,16 +109,13 @@ private:
         link.most = grid.max;
         link.mode = mode;
         return position::simulate_link(track_, link, *codec_, *position::make_horizon(),
-                                       options_.max_bytes, losses);
+                                       options_.max_bytes, losses, runs_);
     }
 
     void say(const position::Losses& losses, const std::string& way, const position::LinkCost& cost,
-             std::optional<std::size_t> arrived) {
+             std::optional<double> arrived) {
         note(losses, way, cost);
-        const std::string share =
-            arrived ? fmt::format("{:.4f}", static_cast<double>(*arrived) /
-                                                static_cast<double>(track_.size()))
-                    : "";
+        const std::string share = arrived ? fmt::format("{:.4f}", *arrived) : "";
         if (io_.format == "text") {
             io_.out << fmt::format("{:<6.2f}{:<6.2f}{:12}{:17.1f}{:>16}{:>9}\n", losses.packet,
                                    losses.ack, way, cost.bits,
@@ -145,6 +151,7 @@ private:
     SimulateOptions options_;
     std::vector<Plot::Way> ways_;
     std::vector<position::Fix> track_;
+    std::size_t runs_ = 1;
     std::unique_ptr<position::Codec> codec_;
 };
 

@@ -1,7 +1,8 @@
-// codecs - print a hash of all bits that each codec of a track makes of one random walk
+// codecs - print a hash of all bits that each codec of a track, and the horizon, make of one random walk
 //
 // Built by several compilers and for several machines, it must say the same. It decodes too.
 #include "seautils/position/codec.hpp"
+#include "seautils/position/horizon.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -98,6 +99,34 @@ bool run(const CodecOptions& options, const std::vector<Cell>& walk, Hash& hash)
     return sender->save() == receiver->save();
 }
 
+/// Sends some positions of a walk, none of those between.
+bool run_ahead(const std::vector<Cell>& walk, Hash& hash) {
+    Random random;
+    const auto sender = position::make_horizon(), receiver = sender->clone();
+    sender->restart(walk[0]);
+    receiver->restart(walk[0]);
+    for (std::size_t at = 0;;) {
+        const auto ahead = static_cast<std::uint32_t>(1 + random.below(12));
+        if ((at += ahead) >= walk.size()) break;
+        if (ahead > 1) {
+            entropy::BitString bits;
+            entropy::Encoder out(bits);
+            sender->encode(ahead, walk[at], out);
+            out.finish();
+            entropy::BitReader reader(bits.bytes(), bits.size());
+            entropy::Decoder in(reader);
+            if (receiver->decode(ahead, in) != walk[at]) return false;
+            hash.add(bits.bytes());
+        }
+        for (const auto& end : {sender.get(), receiver.get()}) {
+            if (ahead == 1) end->learn(walk[at]);
+            if (ahead > 1) end->learn_ahead(ahead, walk[at]);
+        }
+    }
+    hash.add(sender->save());
+    return sender->save() == receiver->save();
+}
+
 struct Named {
     const char* name;
     CodecOptions::Kind kind;
@@ -120,6 +149,12 @@ constexpr Named codecs[] = {
 
 int main() {
     const std::vector<Cell> walk = random_walk(500);
+    Hash ahead;
+    if (!run_ahead(walk, ahead)) {
+        std::puts("ahead: not decoded as it was");
+        return 1;
+    }
+    std::printf("ahead: %016llx\n", static_cast<unsigned long long>(ahead.value()));
     for (const Named& codec : codecs) {
         for (const std::int64_t interval_ms : {1'000, 10'000, 45'000}) {
             CodecOptions options;

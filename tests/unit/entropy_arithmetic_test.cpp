@@ -1,6 +1,7 @@
 #include "seautils/entropy/arithmetic.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/entropy/coder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -365,6 +366,33 @@ TEST(EntropyRun, RandomRunsComeBackFromTheirOwnBits) {
         SCOPED_TRACE(seed);
         Random random(seed);
         runs_come_back(random);
+    }
+}
+
+// A decoder knows how many bits its symbols took, if they end behind the last one read.
+TEST(EntropyCoder, ADecoderKnowsWhatAnEndWouldTake) {
+    std::mt19937 random(3);
+    for (int run = 0; run < 200; ++run) {
+        BitString bits;
+        Encoder out(bits);
+        std::vector<std::pair<bool, std::uint32_t>> symbols;
+        std::vector<std::size_t> ended{out.ending_bits()};
+        for (int n = 0; n < 60; ++n) {
+            const std::uint32_t one =
+                n % 7 == 0 ? 32768U : static_cast<std::uint32_t>(1 + random() % 65535);
+            symbols.emplace_back(random() % 65536 < one, one);
+            out.bit(symbols.back().first, one);
+            ended.push_back(bits.size() + out.ending_bits());
+        }
+        out.finish();
+        BitReader reader(bits.bytes(), bits.size());
+        Decoder in(reader);
+        EXPECT_EQ(in.ended_bits(), ended[0]);
+        for (std::size_t n = 0; n < symbols.size(); ++n) {
+            ASSERT_EQ(in.bit(symbols[n].second), symbols[n].first);
+            ASSERT_EQ(in.ended_bits(), ended[n + 1]);
+        }
+        EXPECT_EQ(ended.back(), bits.size());
     }
 }
 

@@ -34,7 +34,7 @@ TEST(PositionFiller, LawPacketsAreThoseOfASenderWhoseEveryPacketArrives) {
         const auto max_bytes = *rc::gen::inRange<std::size_t>(least_bytes(options), 80);
         const auto most = *rc::gen::inRange<std::size_t>(0, 12);
         Walk walk(*rc::gen::arbitrary<std::uint64_t>());
-        PacketFiller filler(options, LinearCodec(), *make_horizon(), max_bytes, most);
+        PacketFiller filler(options, LinearCodec(), LinearHorizon(), max_bytes, most);
         std::vector<Fix> fixes;
         std::vector<Packet> packets;
         std::int64_t time_ms = start_ms;

@@ -1,9 +1,10 @@
-// A small codec for tests of what is built on codecs.
+// A small codec and horizon for tests of what is built on them.
 #ifndef SEAUTILS_TESTS_POSITION_LINEAR_HPP
 #define SEAUTILS_TESTS_POSITION_LINEAR_HPP
 
 #include "seautils/core/error.hpp"
 #include "seautils/position/codec.hpp"
+#include "seautils/position/horizon.hpp"
 #include "seautils/position/state_bytes.hpp"
 
 #include <algorithm>
@@ -97,6 +98,75 @@ private:
     }
 
     std::array<std::int64_t, 3> last_{}, before_{}, mean_{1024, 1024, 512};
+};
+
+/// The difference from linear extrapolation, in 8 or 25 bits an axis: so quick that tests may play
+/// long stories.
+class LinearHorizon : public Horizon {
+public:
+    std::unique_ptr<Horizon> clone() const override {
+        return std::make_unique<LinearHorizon>(*this);
+    }
+    void restart(const Cell& cell) override { last_ = cell, speed_ = {}; }
+    void learn(const Cell& next) override { learn_ahead(1, next); }
+    void learn_ahead(std::uint32_t ahead, const Cell& cell) override {
+        const auto k = static_cast<std::int32_t>(ahead);
+        speed_ = {(cell.x - last_.x) / k, (cell.y - last_.y) / k, (cell.z - last_.z) / k};
+        last_ = cell;
+    }
+    void encode(std::uint32_t ahead, const Cell& cell, entropy::Encoder& out) const override {
+        const auto expected = expected_at(ahead);
+        const std::array<std::int64_t, 3> to{cell.x, cell.y, cell.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int64_t off = to[k] - expected[k];
+            const bool is_near = off >= -64 && off < 64;
+            out.bit(is_near, 32768);
+            for (unsigned bit = is_near ? 7 : width; bit > 0; --bit)
+                out.bit(((off + (is_near ? 64 : far)) >> (bit - 1) & 1) != 0, 32768);
+        }
+    }
+    Cell decode(std::uint32_t ahead, entropy::Decoder& in) const override {
+        const auto expected = expected_at(ahead);
+        std::array<std::int64_t, 3> to{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const bool is_near = in.bit(32768);
+            std::int64_t off = 0;
+            for (unsigned bit = is_near ? 7 : width; bit > 0; --bit)
+                off = off * 2 + (in.bit(32768) ? 1 : 0);
+            to[k] = expected[k] + off - (is_near ? 64 : far);
+            if (std::abs(to[k]) > cell_limit) throw DataError("too far off");
+        }
+        return {static_cast<std::int32_t>(to[0]), static_cast<std::int32_t>(to[1]),
+                static_cast<std::int32_t>(to[2])};
+    }
+    std::string save() const override {
+        StateWriter out(1);
+        for (const Cell* c : {&last_, &speed_})
+            for (const std::int32_t v : {c->x, c->y, c->z}) out.number(v);
+        return out.finish();
+    }
+    void load(std::string_view state) override {
+        StateReader in(state, 1);
+        LinearHorizon next;
+        for (Cell* c : {&next.last_, &next.speed_})
+            for (std::int32_t* v : {&c->x, &c->y, &c->z})
+                *v = static_cast<std::int32_t>(in.number(-2 * cell_limit, 2 * cell_limit));
+        in.finish();
+        *this = next;
+    }
+
+private:
+    static constexpr unsigned width = 24;  ///< of any difference within the limits
+    static constexpr std::int64_t far = 1 << 23;
+
+    std::array<std::int64_t, 3> expected_at(std::uint32_t ahead) const {
+        const auto axis = [ahead](std::int64_t from, std::int64_t speed) {
+            return std::clamp<std::int64_t>(from + speed * ahead, -cell_limit, cell_limit);
+        };
+        return {axis(last_.x, speed_.x), axis(last_.y, speed_.y), axis(last_.z, speed_.z)};
+    }
+
+    Cell last_, speed_;
 };
 
 }  // namespace seautils::position

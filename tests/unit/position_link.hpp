@@ -44,8 +44,8 @@ class Link {
 public:
     explicit Link(LinkOptions options)
         : options_(options),
-          sender(options, LinearCodec(), *make_horizon()),
-          receiver(options, LinearCodec(), *make_horizon()) {}
+          sender(options, LinearCodec(), LinearHorizon()),
+          receiver(options, LinearCodec(), LinearHorizon()) {}
 
     void sample(const Fix& fix) {
         sender.sample(fix);
@@ -62,8 +62,8 @@ public:
         last = arrival;
         return arrival.ack;
     }
-    void forget_sender() { sender = Sender(options_, LinearCodec(), *make_horizon()); }
-    void forget_receiver() { receiver = Receiver(options_, LinearCodec(), *make_horizon()); }
+    void forget_sender() { sender = Sender(options_, LinearCodec(), LinearHorizon()); }
+    void forget_receiver() { receiver = Receiver(options_, LinearCodec(), LinearHorizon()); }
 
 private:
     LinkOptions options_;

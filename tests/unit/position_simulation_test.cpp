@@ -46,7 +46,7 @@ TEST(PositionSimulation, OursIsNoOlderThanFullPositions) {
             options.mode = mode;
             const Losses losses{p, 0, 5};
             const LinkReport report =
-                simulate_link(track, options, LinearCodec(), *make_horizon(), 64, losses);
+                simulate_link(track, options, LinearCodec(), LinearHorizon(), 64, losses);
             EXPECT_EQ(report.wrong, 0U);
             if (p == 0) {
                 EXPECT_EQ(report.arrived, track.size());

@@ -54,6 +54,11 @@ struct Interval {
             return false;
         return true;
     }
+    /// Bits that end a run here, those of doublings that wait for the next bit among them.
+    std::uint64_t ending_bits(std::uint64_t pending) const {
+        if (low == 0 && high == top && pending == 0) return 0;
+        return pending + (low == 0 || high == top ? 1 : 2);
+    }
     void twice(std::uint64_t subtract) {
         low = (low - subtract) * 2;
         high = (high - subtract) * 2 + 1;
@@ -85,10 +90,7 @@ public:
     }
 
     /// Bits that finish() would put now.
-    std::uint64_t ending_bits() const {
-        if (interval_.low == 0 && interval_.high == top && pending_ == 0) return 0;
-        return pending_ + (interval_.low == 0 || interval_.high == top ? 1 : 2);
-    }
+    std::uint64_t ending_bits() const { return interval_.ending_bits(pending_); }
 
 private:
     template <class PutBit>
@@ -133,6 +135,9 @@ public:
         }
     }
 
+    /// Bits of the whole run, had it ended here: RunEncoder's and those of its finish().
+    std::uint64_t ended_bits() const { return told_ + interval_.ending_bits(pending_); }
+
 private:
     std::uint64_t unknown() const { return (std::uint64_t{1} << unknown_bits_) - 1; }
 
@@ -150,12 +155,17 @@ private:
             interval_.twice(subtract);
             code_ = (code_ - subtract) * 2;
             ++unknown_bits_;
+            ++pending_;
+            if (subtract == quarter) continue;
+            told_ += pending_;
+            pending_ = 0;
         }
     }
 
     Interval interval_;
-    std::uint64_t code_ = 0;      ///< 32 bits; those not read yet are 0
-    unsigned unknown_bits_ = 32;  ///< how many low bits have not been read
+    std::uint64_t code_ = 0;                ///< 32 bits; those not read yet are 0
+    unsigned unknown_bits_ = 32;            ///< how many low bits have not been read
+    std::uint64_t told_ = 0, pending_ = 0;  ///< bits that the encoder had put, and had not yet
 };
 
 }  // namespace detail

@@ -62,6 +62,9 @@ public:
         });
         return part.below == 0;
     }
+    /// Bits that an Encoder of the symbols read so far has put when it has finished: so that where
+    /// they end can be known by their bits.
+    std::size_t ended_bits() const { return static_cast<std::size_t>(coder_.ended_bits()); }
     /// All symbols since the construction, or the last finish(), were read.
     void finish() { coder_ = {}; }
 

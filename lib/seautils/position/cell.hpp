@@ -21,6 +21,15 @@ inline bool in_limits(const Cell& c) {
     return fits(c.x) && fits(c.y) && fits(c.z);
 }
 
+/// Where one is on the straight way from a to b after `part` of `whole`, rounded; 0 <= part <= whole.
+inline Cell on_the_way(const Cell& a, const Cell& b, std::int64_t part, std::int64_t whole) {
+    const auto axis = [&](std::int32_t from, std::int32_t to) {
+        const std::int64_t way = (std::int64_t{to} - from) * part;
+        return static_cast<std::int32_t>(from + (way + (way < 0 ? -whole : whole) / 2) / whole);
+    };
+    return {axis(a.x, b.x), axis(a.y, b.y), axis(a.z, b.z)};
+}
+
 }  // namespace seautils::position
 
 #endif  // SEAUTILS_POSITION_CELL_HPP

@@ -21,6 +21,14 @@ std::optional<Cell> Codec::decode_alone(entropy::BitReader& in) {
     return decode(coder);
 }
 
+void Codec::learn_ahead(std::uint32_t ahead, const Cell& from, const Cell& to) {
+    restart(on_the_way(from, to, ahead - 1, ahead));
+    if (can_encode(to))
+        learn(to);
+    else
+        restart(to);
+}
+
 void Codec::encode_end(entropy::Encoder&) {
     throw std::logic_error("this codec has no code for the end");
 }

@@ -40,6 +40,10 @@ public:
 
     /// Learns the next position as encode() does, and codes nothing. The first of all is a restart().
     virtual void learn(const Cell& next) = 0;
+    /// Learns a position `ahead` (2 or more) intervals after the last one, which was `from`; those
+    /// between are not known. A codec that has no better way of its own starts anew one interval
+    /// before, as if the vehicle had gone straight on.
+    virtual void learn_ahead(std::uint32_t ahead, const Cell& from, const Cell& to);
 
     /// Codes one position as all that a packet holds, and learns it: in the fewest whole bits.
     virtual void encode_alone(const Cell& next, entropy::BitString& out);

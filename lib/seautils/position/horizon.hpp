@@ -39,6 +39,9 @@ public:
 /// Longest step over positions that are not known, in intervals.
 inline constexpr std::uint32_t most_ahead = 32'767;
 
+/// Ours: MixModel of strides so long, made anew for each position that is coded, from the last 48 of
+/// them; where positions are not known the vehicle went straight on. Keeps 512 positions (12 KB); coding
+/// one takes up to 2 ms.
 std::unique_ptr<Horizon> make_horizon();
 
 }  // namespace seautils::position

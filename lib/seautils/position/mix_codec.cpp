@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint8_t state_version = 1;
 constexpr std::size_t situations = 1024;
+constexpr std::uint32_t most_guessed = 8;  ///< intervals
 
 /// The joint code's classes along one axis: near the centre each value is one, and what is further off
 /// on either side.
@@ -97,15 +98,7 @@ Cell MixCodec::step_to(const Cell& next) const {
 
 template <class Decide>
 Cell MixCodec::follow(MixModel::Forecast& f, Decide decide) {
-    const auto on = [&](std::size_t axis) {
-        return [&decide, axis](std::int32_t yes, std::int32_t least, std::int32_t most) {
-            return decide(axis, yes, least, most);
-        };
-    };
-    Cell step;
-    step.z = model_.z_coder(motion_, f).find(on(2));
-    step.x = model_.x_coder(motion_, f).find(on(0));
-    step.y = model_.y_coder(motion_, f, step.x).find(on(1));
+    const Cell step = model_.find(motion_, f, decide, true);
     const Cell next{motion_.last.x + step.x, motion_.last.y + step.y, motion_.last.z + step.z};
     if (!in_limits(next)) throw DataError("position is beyond the limits");
     model_.learn(motion_, f, step);
@@ -141,6 +134,13 @@ void MixCodec::learn(const Cell& next) {
     follow(f, [&](std::size_t axis, std::int32_t, std::int32_t from, std::int32_t to) {
         return actual[axis].within(from, to);
     });
+}
+
+/// Its filters are told a few positions on the straight way; what is learnt of the vehicle are only
+/// positions that were there.
+void MixCodec::learn_ahead(std::uint32_t ahead, const Cell& from, const Cell& to) {
+    if (!can_encode(to) || ahead > most_guessed) return Codec::learn_ahead(ahead, from, to);
+    for (std::uint32_t k = 1; k <= ahead; ++k) motion_.step(on_the_way(from, to, k, ahead));
 }
 
 JointCode MixCodec::joint_code(MixModel::Forecast& f) {

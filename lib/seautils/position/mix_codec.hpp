@@ -34,6 +34,7 @@ public:
     void encode(const Cell& next, entropy::Encoder& out) override;
     std::optional<Cell> decode(entropy::Decoder& in) override;
     void learn(const Cell& next) override;
+    void learn_ahead(std::uint32_t ahead, const Cell& from, const Cell& to) override;
     void encode_alone(const Cell& next, entropy::BitString& out) override;
     std::optional<Cell> decode_alone(entropy::BitReader& in) override;
     std::string save() const override;

@@ -31,6 +31,13 @@ MixModel::MixModel(std::size_t capacity, const std::vector<Cell>& plan)
       plane_mixer_(planes + (plan.empty() ? 0 : 1), {12, 15, 9}),
       depth_mixer_(depths + (plan.empty() ? 0 : 1), {1, 4, 15}) {}
 
+void MixModel::widen(std::int64_t times) {
+    for (FilterModel* m : {&slow_, &fast_}) m->widen(times * times);
+    for (AnalogModel* m : {&path_, &innovation_, &world_, &place_}) m->widen(times * times);
+    for (DepthModel* m : {&slow_z_, &fast_z_, &hold_z_}) m->widen(times);
+    cases_.widen(times);
+}
+
 Mixer::Contexts MixModel::plane_contexts(const Motion& m) {
     const std::size_t surprise = level(length(m.innovation[0]), {128, 256, 512, 1280});
     return {m.turn_context(), surprise * 3 + age(m.known),

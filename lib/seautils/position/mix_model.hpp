@@ -39,6 +39,27 @@ public:
     ValueCoder x_coder(const Motion& motion, Forecast& f);
     ValueCoder y_coder(const Motion& motion, Forecast& f, std::int32_t step_x);
 
+    /// Finds a step by questions about each axis: z, x, and then y.
+    /// @param decide  as ValueCoder::find(), with the axis (0 x, 1 y, 2 z) before
+    /// @param learn   whether the mixers learn each answer
+    template <class Decide>
+    Cell find(const Motion& motion, Forecast& f, Decide decide, bool learn) {
+        const auto on = [&](std::size_t axis) {
+            return [&decide, axis](std::int32_t yes, std::int32_t least, std::int32_t most) {
+                return decide(axis, yes, least, most);
+            };
+        };
+        Cell step;
+        step.z = z_coder(motion, f).find(on(2), learn);
+        step.x = x_coder(motion, f).find(on(0), learn);
+        step.y = y_coder(motion, f, step.x).find(on(1), learn);
+        return step;
+    }
+
+    /// Before anything is learnt: a step lasts so many times longer than usual, and so may its errors
+    /// be as many times larger over the plane; along z, by the root. 1 to 1024
+    void widen(std::int64_t times);
+
     /// @param step  from the last known position, cells
     void learn(const Motion& motion, const Forecast& f, const Cell& step);
 

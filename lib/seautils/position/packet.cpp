@@ -14,29 +14,10 @@ namespace seautils::position {
 
 namespace {
 
-constexpr unsigned start_bits = 43;
-constexpr unsigned version_bits = 3;
-constexpr unsigned near_zeros = 6;  // that a rare kind of packet begins with
-constexpr std::uint32_t most_near = (1U << near_zeros) - 1;
 constexpr unsigned length_bits = 6;  // of a difference of times
 constexpr std::uint32_t even = 1U << 15;
 
 unsigned width_of(std::uint64_t value) { return static_cast<unsigned>(std::bit_width(value)); }
-
-/// Elias' gamma code of a number from 1.
-void put_gamma(std::uint32_t value, entropy::BitString& out) {
-    out.put(0, width_of(value) - 1);
-    out.put(value, width_of(value));
-}
-
-std::uint32_t get_gamma(std::uint32_t most, entropy::BitReader& in) {
-    unsigned more = 0;
-    while (!in.get())
-        if (++more >= width_of(most)) throw DataError("packet: a number is too large");
-    const std::uint64_t value = std::uint64_t{1} << more | in.get(more);
-    if (value > most) throw DataError("packet: a number is too large");
-    return static_cast<std::uint32_t>(value);
-}
 
 /// The bits as they are: what is coded first in a coder stands so in the packet. (Its 1 is the lower
 /// half, which is a 0.)
@@ -73,47 +54,6 @@ std::int32_t get_axis(std::int32_t least, std::int32_t most, entropy::Decoder& i
     return static_cast<std::int32_t>(least + static_cast<std::int64_t>(value));
 }
 
-void put_form(const PacketHeader& header, entropy::BitString& out) {
-    if (header.ahead == 1) return;
-    if (header.kind == PacketKind::window) return out.put(false);
-    out.put(true);
-    out.put(header.kind == PacketKind::peek);
-    if (header.kind == PacketKind::peek) put_gamma(header.count + 1, out);
-}
-
-void get_form(PacketHeader& header, entropy::BitReader& in) {
-    header.kind = PacketKind::window;
-    header.count = header.ahead;
-    if (header.ahead == 1) return;
-    if (!in.get()) return;
-    header.kind = in.get() ? PacketKind::peek : PacketKind::jump;
-    header.count = header.kind == PacketKind::peek ? get_gamma(most_count + 1, in) - 1 : 1;
-}
-
-void put_part(const PacketHeader& header, entropy::BitString& out) {
-    put_gamma(header.reference_bits, out);
-    out.put(header.reference, header.reference_bits);
-    put_gamma(header.count, out);
-}
-
-void get_part(PacketHeader& header, entropy::BitReader& in) {
-    header.kind = PacketKind::part;
-    header.ahead = 0;
-    header.reference_bits = get_gamma(ack_bits, in);
-    header.reference = static_cast<std::uint32_t>(in.get(header.reference_bits));
-    header.count = get_gamma(most_count, in);
-}
-
-void get_start(PacketHeader& header, entropy::BitReader& in) {
-    header.is_start = true;
-    const std::uint64_t version = in.get(version_bits);
-    if (version > packet_version) {
-        throw DataError(fmt::format("packet of version {}, newer than this program's {}", version,
-                                    packet_version));
-    }
-    header.start_ms = static_cast<std::int64_t>(in.get(start_bits));
-}
-
 std::uint64_t check_of(std::string_view body, std::uint64_t seed, unsigned check_bits) {
     return check_bits == 0 ? 0 : hash(body, seed) >> (64 - check_bits);
 }
@@ -123,70 +63,7 @@ std::string_view body_of(std::string_view bytes, unsigned check_bits) {
     return bytes.substr(0, bytes.size() - check_bits / 8);
 }
 
-/// Whether a window of more than one is meant, whose full fixes are marked one by one.
-bool marks_full(const PacketHeader& header) {
-    return header.kind == PacketKind::window && header.ahead > 1;
-}
-
 }  // namespace
-
-void put(const PacketHeader& header, entropy::BitString& out) {
-    const bool is_plain =
-        header.kind != PacketKind::part && !header.is_start && !header.is_newest_full;
-    if (!is_plain || header.ahead > most_near) out.put(0, near_zeros);
-    if (header.kind == PacketKind::part) {
-        out.put(1, 3);
-        return put_part(header, out);
-    }
-    if (header.is_start) {
-        out.put(0, 3);
-        out.put(packet_version, version_bits);
-        out.put(static_cast<std::uint64_t>(header.start_ms), start_bits);
-    } else if (header.is_newest_full) {
-        out.put(1, 2);
-    } else if (header.ahead > most_near) {
-        out.put(true);
-    }
-    put_gamma(header.ahead, out);
-    if (!header.is_start) out.put(header.reference, width_of(header.ahead));
-    put_form(header, out);
-}
-
-namespace {
-
-/// What stands behind the zeros that no near number begins with. @return  whether k follows
-bool get_rare(PacketHeader& header, entropy::BitReader& in) {
-    if (in.get()) return true;
-    header.is_newest_full = in.get();
-    if (header.is_newest_full) return true;
-    if (in.get()) {
-        get_part(header, in);
-        return false;
-    }
-    get_start(header, in);
-    return true;
-}
-
-}  // namespace
-
-PacketHeader get_packet_header(entropy::BitReader& in) {
-    PacketHeader header;
-    unsigned zeros = 0;
-    while (zeros < near_zeros && !in.get()) ++zeros;
-    if (zeros < near_zeros) {
-        header.ahead = static_cast<std::uint32_t>(std::uint64_t{1} << zeros | in.get(zeros));
-    } else {
-        if (!get_rare(header, in)) return header;
-        header.ahead = get_gamma(most_ahead, in);
-    }
-    if (!header.is_start) {
-        header.reference_bits = width_of(header.ahead);
-        header.reference = static_cast<std::uint32_t>(in.get(header.reference_bits));
-    }
-    get_form(header, in);
-    if (header.is_start) header.is_newest_full = !marks_full(header);
-    return header;
-}
 
 void put_full(const Fix& fix, std::int64_t expected_ms, const LinkOptions& options,
               entropy::Encoder& out) {
@@ -216,10 +93,11 @@ std::size_t least_bytes(const LinkOptions& options) {
     const auto axis = [](std::int32_t least, std::int32_t most) {
         return width_of(static_cast<std::uint64_t>(most - least));
     };
-    constexpr unsigned header = near_zeros + 3 + version_bits + start_bits + 2 * ack_bits;
-    constexpr unsigned time = length_bits + start_bits + 2;
-    constexpr unsigned marked = 12 + 2;  // that it is full among others, and the coder's ending
-    const unsigned bits = header + time + marked + axis(a.x, b.x) + axis(a.y, b.y) + axis(a.z, b.z);
+    // Of a start whose newest position is far ahead, alone. (One of many, which is marked as full, has
+    // less of a header.)
+    constexpr unsigned header = 16 + 3 + 43 + 3 + 29;
+    constexpr unsigned time = length_bits + 43 + 2, ending = 2;
+    const unsigned bits = header + time + ending + axis(a.x, b.x) + axis(a.y, b.y) + axis(a.z, b.z);
     return (bits + 7) / 8 + options.check_bits / 8;
 }
 

@@ -42,20 +42,20 @@ const std::vector<Packet>& PacketFiller::finish() {
 PacketHeader PacketFiller::header(std::size_t count) const {
     PacketHeader header;
     header.ahead = header.count = static_cast<std::uint32_t>(count);
-    set_reference(header, *known_, header.ahead);
+    set_reference(header, *known_, header.ahead, options_);
     return header;
 }
 
 /// Whether it fits behind those that wait; else it is not put.
 bool PacketFiller::put(const Fix& fix) {
     if (!run_) run_.emplace(*known_);
-    const std::size_t header_bits = bits_of(header(waiting_.size() + 1));
-    if (header_bits + run_->bits() + little_room > most_bits_)
+    PacketHeader head = header(waiting_.size() + 1);
+    if (!waiting_.empty() && run_->say_end(head) + little_room > most_bits_)
         behind_ = run_->state();
     else
         behind_.reset();
     run_->put(fix);
-    if (header_bits + run_->bits() > most_bits_ && !waiting_.empty()) {
+    if (run_->say_end(head) > most_bits_ && !waiting_.empty()) {
         run_->take_back();
         if (behind_) {
             run_->state() = std::move(*behind_);
@@ -80,6 +80,7 @@ void PacketFiller::send() {
         position::put(head, bits);
         state.encode_alone(step, bits);
     } else {
+        run_->say_end(head);
         position::put(head, bits);
         run_->finish(bits);
     }

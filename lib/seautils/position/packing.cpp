@@ -18,18 +18,16 @@ void check(const Fix& fix, const LinkOptions& options) {
                     options.least.z, options.most.x, options.most.y, options.most.z));
 }
 
-void set_reference(PacketHeader& header, const TrackState& known, std::uint64_t most) {
+void set_reference(PacketHeader& header, const TrackState& known, std::uint64_t most,
+                   const LinkOptions& options) {
     header.is_start = known.number() == 0;
     header.start_ms = known.start_ms();
-    header.reference_bits = static_cast<unsigned>(std::bit_width(most));
+    header.habit = known.habit();
+    header.is_reference_sized = options.check_bits < 16;
+    if (header.is_reference_sized)
+        header.reference_bits = static_cast<unsigned>(std::bit_width(most));
     header.reference = static_cast<std::uint32_t>(
         known.number() & ((std::uint64_t{1} << header.reference_bits) - 1));
-}
-
-std::size_t bits_of(const PacketHeader& header) {
-    entropy::BitString bits;
-    put(header, bits);
-    return bits.size();
 }
 
 Packet packed(const PacketHeader& header, const entropy::BitString& bits, const TrackState& known,
@@ -46,17 +44,30 @@ Packet packed(const PacketHeader& header, const entropy::BitString& bits, const 
     return packet;
 }
 
+void RunCoder::put_newest(const Step& newest) {
+    state_.encode_peek(newest, coder_);
+    note_end();
+}
+
 Step RunCoder::put(const Fix& fix) {
     bits_before_ = bits_;
     coder_before_ = coder_;
     const Step step = state_.step_to(fix, 1);
     state_.encode(step, coder_);
+    note_end();
     return step;
 }
 
 void RunCoder::take_back() {
     bits_ = bits_before_;
     coder_ = coder_before_;
+    ended_.pop_back();
+}
+
+std::size_t RunCoder::say_end(PacketHeader& header) const {
+    header.end = {};
+    header.end = end_of(bits_of(header) - header.end.bits, ended_);
+    return bits_of(header) + ended_.back();
 }
 
 void RunCoder::finish(entropy::BitString& out) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 /// How a packet is put together: common to Sender and PacketFiller.
 namespace seautils::position {
@@ -25,10 +26,10 @@ struct Packet {
 /// @throws DataError  outside of the area or of the time's range
 void check(const Fix& fix, const LinkOptions& options);
 
-/// Says in the header which reference is meant: that of `known`, among `most` + 1.
-void set_reference(PacketHeader& header, const TrackState& known, std::uint64_t most);
-
-std::size_t bits_of(const PacketHeader& header);
+/// Says in the header which reference is meant: that of `known`, of which the newest position that was
+/// sent is `most` ahead.
+void set_reference(PacketHeader& header, const TrackState& known, std::uint64_t most,
+                   const LinkOptions& options);
 
 /// @param known  the reference: the packet's check vouches for it
 /// @param bits   header and positions
@@ -45,21 +46,26 @@ public:
     RunCoder& operator=(const RunCoder&) = delete;
 
     /// The newest position, before all others; it is not learnt.
-    void put_newest(const Step& newest) { state_.encode_peek(newest, coder_); }
+    void put_newest(const Step& newest);
     /// The next position; learns it. @return  how it follows
     Step put(const Fix& fix);
     /// Takes back the bits of the last put(); at most once after each. state() has learnt it all the same.
     void take_back();
 
-    std::size_t bits() const { return bits_.size() + coder_.ending_bits(); }  ///< with the ending
+    /// Says in the header that it ends behind what was put last.
+    /// @return  bits of header and positions
+    std::size_t say_end(PacketHeader& header) const;
     TrackState& state() { return state_; }  ///< behind all positions that were put
     /// Ends the coder, and puts its bits behind those of `out`. Nothing can be put any more.
     void finish(entropy::BitString& out);
 
 private:
+    void note_end() { ended_.push_back(bits_.size() + coder_.ending_bits()); }
+
     TrackState state_;
     entropy::BitString bits_, bits_before_;
     entropy::Encoder coder_{bits_}, coder_before_{bits_};
+    std::vector<std::size_t> ended_;  ///< its bits, had it ended behind each position
 };
 
 }  // namespace seautils::position

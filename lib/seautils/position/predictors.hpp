@@ -61,6 +61,8 @@ public:
         value_ += (square - value_) * rate_q8 / 256;
         value_ = value_ < least_ ? least_ : value_;
     }
+    /// Before anything is taken: lengths are so many times longer. At most 2^20 (factor 2^10).
+    void widen(std::int64_t square_of_times) { value_ *= square_of_times; }
     std::int32_t root() const {
         return static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(value_)));
     }
@@ -79,6 +81,9 @@ class FilterModel {
 public:
     PlaneMixture predict(const Motion& motion, Pair expected) const;
     void learn(const Motion& motion, Pair expected, const PlaneMixture& said, const Cell& step);
+    void widen(std::int64_t square_of_times) {
+        for (MeanSquare* m : {&along_, &across_, &first_}) m->widen(square_of_times);
+    }
 
     template <class Archive>
     void archive(Archive& a) {
@@ -121,6 +126,7 @@ public:
     /// Empty: nothing is known yet.
     PlaneMixture predict(const Motion& motion);
     void learn(const Motion& motion, const PlaneMixture& said, const Cell& step);
+    void widen(std::int64_t square_of_times) { error_.widen(square_of_times); }
 
     template <class Archive>
     void archive(Archive& a) {
@@ -147,6 +153,7 @@ class DepthModel {
 public:
     Mixture predict(std::int32_t expected) const;
     void learn(std::int32_t expected, const Mixture& said, std::int32_t step);
+    void widen(std::int64_t square_of_times) { error_.widen(square_of_times); }
 
     template <class Archive>
     void archive(Archive& a) {
@@ -164,6 +171,7 @@ public:
     explicit DepthAnalogModel(std::size_t capacity) : memory_(capacity, 4, false, 4) {}
     Mixture predict(const Motion& motion);
     void learn(const Motion& motion, const Mixture& said, std::int32_t step);
+    void widen(std::int64_t square_of_times) { error_.widen(square_of_times); }
 
     template <class Archive>
     void archive(Archive& a) {

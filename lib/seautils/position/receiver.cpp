@@ -16,6 +16,7 @@ namespace {
 constexpr std::uint8_t state_version = 1;
 constexpr unsigned patience = 8;            ///< packets that cannot be decoded, in a row
 constexpr std::size_t most_ended = 16;      ///< sessions remembered
+constexpr std::size_t most_meant = 4;       ///< references that a packet is tried with
 constexpr std::size_t most_nodes = 65'536;  ///< positions after the reference, by any way
 
 /// A position that was learnt in one way, after another or after the base.
@@ -49,8 +50,8 @@ struct Receiver::Impl {
         : options(o), codec(c.clone()), horizon(h.clone()) {}
 
     Arrival packet(std::string_view bytes);
-    Arrival start(const PacketHeader& header, std::string_view bytes);
-    Arrival follow(const PacketHeader& header, std::string_view bytes);
+    Arrival start(std::string_view bytes);
+    Arrival follow(const Reference& reference, std::string_view bytes);
     Arrival build(std::int64_t reference, const TrackState& state, const PacketHeader& header,
                   entropy::BitReader in);
     Arrival stale(bool is_same_session);
@@ -59,7 +60,9 @@ struct Receiver::Impl {
     Decoded decode(TrackState state, const PacketHeader& header, entropy::BitReader& in) const;
     std::int64_t newest_acked() const;
     std::uint64_t tip() const;
-    std::optional<std::int64_t> find(const PacketHeader& header) const;
+    std::vector<std::int64_t> meant(const Reference& reference) const;
+    std::vector<std::int64_t> numbered(const Reference& reference) const;
+    std::uint64_t mark_of(std::int64_t node) const;
     TrackState state_at(std::int64_t node) const;
     void rebase(std::int64_t node, const TrackState& state);
     std::int64_t add(std::int64_t parent, const Step& step);
@@ -88,17 +91,39 @@ std::uint64_t Receiver::Impl::tip() const {
     return node < 0 ? base->number() : nodes[static_cast<std::size_t>(node)].number;
 }
 
+std::uint64_t Receiver::Impl::mark_of(std::int64_t node) const {
+    return node < 0 ? base->mark() : nodes[static_cast<std::size_t>(node)].mark;
+}
+
 /// The one that can be meant: the number nearest before the newest acknowledged one, or that.
-std::optional<std::int64_t> Receiver::Impl::find(const PacketHeader& header) const {
+std::vector<std::int64_t> Receiver::Impl::numbered(const Reference& reference) const {
     const std::uint64_t newest = tip();
-    const std::uint64_t low = (std::uint64_t{1} << header.reference_bits) - 1;
-    const std::uint64_t back = (newest - header.reference) & low;
+    const std::uint64_t low = (std::uint64_t{1} << reference.bits) - 1;
+    const std::uint64_t back = (newest - reference.low) & low;
     if (back > newest || newest - back < base->number()) return {};
-    if (newest - back == base->number()) return -1;
+    if (newest - back == base->number()) return {-1};
     for (std::size_t k = nodes.size(); k > 0; --k)
         if (nodes[k - 1].is_acked && nodes[k - 1].number == newest - back)
-            return static_cast<std::int64_t>(k - 1);
+            return {static_cast<std::int64_t>(k - 1)};
     return {};
+}
+
+/// Those that may be meant, the likely ones first: what the sender built on last, and the newest that
+/// were acknowledged. The check tells which, or that it is none.
+std::vector<std::int64_t> Receiver::Impl::meant(const Reference& reference) const {
+    if (options.check_bits < 16) return numbered(reference);
+    const std::uint64_t low = (std::uint64_t{1} << reference.bits) - 1;
+    std::vector<std::int64_t> places;
+    for (std::size_t k = nodes.size(); k > 0; --k)
+        if (nodes[k - 1].is_acked && (nodes[k - 1].number & low) == reference.low)
+            places.push_back(static_cast<std::int64_t>(k - 1));
+    std::stable_sort(places.begin(), places.end(), [this](std::int64_t a, std::int64_t b) {
+        return nodes[static_cast<std::size_t>(a)].number >
+               nodes[static_cast<std::size_t>(b)].number;
+    });
+    if (places.size() >= most_meant) places.resize(most_meant - 1);
+    if ((base->number() & low) == reference.low) places.push_back(-1);
+    return places;
 }
 
 TrackState Receiver::Impl::state_at(std::int64_t node) const {
@@ -163,14 +188,21 @@ void Receiver::Impl::acknowledge(std::int64_t node, Arrival& arrival) {
 Decoded Receiver::Impl::decode(TrackState state, const PacketHeader& header,
                                entropy::BitReader& in) const {
     Decoded all;
-    const bool is_alone = header.kind == PacketKind::jump || header.ahead == 1;
-    if (is_alone) {
+    if (header.is_alone()) {
         all.run.push_back(state.decode_alone(header.ahead, header.is_newest_full, in));
     } else {
+        const std::size_t all_bits = in.position() + in.left(), front_bits = in.position();
         entropy::Decoder coder(in);
         if (header.kind == PacketKind::peek)
             all.peek = state.decode_peek(header.ahead, header.is_newest_full, coder);
-        for (std::uint32_t k = 0; k < header.count; ++k) all.run.push_back(state.decode(coder));
+        else
+            all.run.push_back(state.decode(coder));
+        for (std::uint32_t before = 0;;) {
+            if (front_bits + coder.ended_bits() + 8 > all_bits && before++ == header.end.before)
+                break;
+            if (all.run.size() == most_count) throw DataError("packet: too many positions");
+            all.run.push_back(state.decode(coder));
+        }
     }
     if (in.left() >= 8 || in.get(static_cast<unsigned>(in.left())) != 0)
         throw DataError("packet: something stands behind its positions");
@@ -218,33 +250,34 @@ void Receiver::Impl::begin_session(const TrackState& fresh) {
 
 /// A packet that needs nothing to be known. If its session has ended, or its sender has built on
 /// what is known already, it is late: unless its like comes again and again, and nothing else.
-Arrival Receiver::Impl::start(const PacketHeader& header, std::string_view bytes) {
-    const auto sealed = unseal(bytes, agreed(options), options.check_bits);
-    if (!sealed) return refuse(bytes, "the check is wrong");
-    entropy::BitReader in = *sealed;
-    get_packet_header(in);
+Arrival Receiver::Impl::start(std::string_view bytes) {
+    entropy::BitReader in = unsealed(bytes, options.check_bits);
+    const PacketHeader header = get_packet_header(in, get_reference(in, options.check_bits), {});
+    if (!unseal(bytes, agreed(options), options.check_bits))
+        return refuse(bytes, "the check is wrong");
     const bool is_same = base && base->start_ms() == header.start_ms;
     if (is_same && base->number() == 0) return build(-1, TrackState(*base), header, in);
     const bool has_ended = std::find(ended.begin(), ended.end(), header.start_ms) != ended.end();
     if ((is_same || has_ended) && failures < patience) return stale(is_same);
     const TrackState fresh(options, *codec, *horizon, header.start_ms);
-    decode(fresh, header, in);  // throws before anything is changed
+    entropy::BitReader positions = in;
+    decode(fresh, header, positions);  // throws before anything is changed
     begin_session(fresh);
-    in = *sealed;
-    get_packet_header(in);
     return build(-1, fresh, header, in);
 }
 
-Arrival Receiver::Impl::follow(const PacketHeader& header, std::string_view bytes) {
+Arrival Receiver::Impl::follow(const Reference& reference, std::string_view bytes) {
     if (!base) return refuse(bytes, "nothing is known of what it follows");
-    const std::optional<std::int64_t> node = find(header);
-    if (!node) return refuse(bytes, "it follows what is not known");
-    const std::uint64_t mark =
-        *node < 0 ? base->mark() : nodes[static_cast<std::size_t>(*node)].mark;
-    auto in = unseal(bytes, mark, options.check_bits);
-    if (!in) return refuse(bytes, "the check is wrong");
-    get_packet_header(*in);
-    return build(*node, state_at(*node), header, *in);
+    const std::vector<std::int64_t> places = meant(reference);
+    for (const std::int64_t node : places) {
+        auto in = unseal(bytes, mark_of(node), options.check_bits);
+        if (!in) continue;
+        get_reference(*in, options.check_bits);
+        const TrackState state = state_at(node);
+        const PacketHeader header = get_packet_header(*in, reference, state.habit());
+        return build(node, state, header, *in);
+    }
+    return refuse(bytes, places.empty() ? "it follows what is not known" : "the check is wrong");
 }
 
 Arrival Receiver::Impl::refuse(std::string_view bytes, std::string why) {
@@ -260,8 +293,8 @@ Arrival Receiver::Impl::refuse(std::string_view bytes, std::string why) {
 Arrival Receiver::Impl::packet(std::string_view bytes) {
     try {
         entropy::BitReader in = unsealed(bytes, options.check_bits);
-        const PacketHeader header = get_packet_header(in);
-        return header.is_start ? start(header, bytes) : follow(header, bytes);
+        const std::optional<Reference> reference = get_reference(in, options.check_bits);
+        return reference ? follow(*reference, bytes) : start(bytes);
     } catch (const DataError& e) {
         return refuse(bytes, e.what());
     }

@@ -134,7 +134,7 @@ PacketHeader Sender::Impl::header(PacketKind kind, std::uint32_t count) const {
     header.ahead = kind == PacketKind::window ? count : kind == PacketKind::part ? 0 : ahead();
     // Of a part: so many that nothing that was sent is meant.
     const std::uint64_t most = kind == PacketKind::part ? newest() - known->number() : header.ahead;
-    set_reference(header, *known, most);
+    set_reference(header, *known, most, options);
     return header;
 }
 
@@ -169,17 +169,14 @@ std::optional<Packet> Sender::Impl::run(PacketHeader head, const Step* newest_st
                                         std::uint32_t least, std::size_t most_bits) {
     const std::uint32_t most = head.count;
     RunCoder coder(*known);
-    const auto fits = [&](std::uint32_t count) {
-        set_count(head, std::max(count, least));
-        return bits_of(head) + coder.bits() <= most_bits;
-    };
+    const auto fits = [&] { return coder.say_end(head) <= most_bits; };
     if (newest_step != nullptr) coder.put_newest(*newest_step);
-    if (newest_step != nullptr && !fits(0)) return {};
+    if (newest_step != nullptr && !fits()) return {};
     std::vector<Sent> sent;
     bool is_whole = true;
     while (is_whole && sent.size() < most) {
         const Step step = coder.put(pending[sent.size()]);
-        is_whole = fits(static_cast<std::uint32_t>(sent.size() + 1));
+        is_whole = fits();
         if (is_whole) sent.push_back({step, coder.state().mark()});
     }
     if (sent.size() < least) return {};
@@ -189,6 +186,7 @@ std::optional<Packet> Sender::Impl::run(PacketHeader head, const Step* newest_st
         head.is_newest_full = true;
         return alone(head, sent.front().step, most_bits);
     }
+    coder.say_end(head);
     entropy::BitString bits;
     put(head, bits);
     coder.finish(bits);

@@ -86,26 +86,44 @@ LinkCost simulate_arq(double delta_bits, double packet_bits, const Losses& losse
     return cost;
 }
 
-LinkReport simulate_link(std::span<const Fix> track, const LinkOptions& options, const Codec& codec,
-                         const Horizon& horizon, std::size_t max_bytes, const Losses& losses) {
-    Sender sender(options, codec, horizon);
-    Receiver receiver(options, codec, horizon);
+namespace {
+
+/// What is counted while links run.
+struct Sums {
+    LinkReport report;
+    double bits = 0, header_bits = 0, bytes = 0, ages = 0;
+
+    void sent(const Packet& packet) {
+        const auto size = static_cast<double>(packet.bits);
+        ++(packet.is_start ? report.starts : report.packets);
+        (packet.is_start ? report.start_bits : bits) += size;
+        if (!packet.is_start) header_bits += static_cast<double>(packet.header_bits);
+        bytes += static_cast<double>(packet.bytes.size());
+    }
+    LinkReport mean(std::size_t runs) const {
+        const auto each = [](double sum, std::size_t of) {
+            return of == 0 ? 0 : sum / static_cast<double>(of);
+        };
+        LinkReport all = report;
+        all.cost = {each(bits, report.packets), each(ages, runs), true};
+        all.header_bits = each(header_bits, report.packets);
+        all.start_bits = each(report.start_bits, runs);
+        all.air_bytes = each(bytes, report.packets + report.starts);
+        return all;
+    }
+};
+
+void run_link(std::span<const Fix> track, Sender sender, Receiver receiver, std::size_t max_bytes,
+              const Losses& losses, Sums& sums) {
     Water water(losses);
     Age age;
-    LinkReport report;
     std::map<std::int64_t, std::size_t> number_of;  // by time
-    double bits = 0, start_bits = 0, header_bits = 0, bytes = 0;
+    std::size_t sampled = 0;
     for (const Fix& fix : track) {
         sender.sample(fix);
-        number_of[fix.time_ms] = ++report.sampled;
+        number_of[fix.time_ms] = ++sampled;
         if (const auto packet = sender.packet(max_bytes)) {
-            ++(packet->is_start ? report.starts : report.packets);
-            if (packet->is_start)
-                start_bits += static_cast<double>(packet->bits);
-            else
-                bits += static_cast<double>(packet->bits);
-            if (!packet->is_start) header_bits += static_cast<double>(packet->header_bits);
-            bytes += static_cast<double>(packet->bytes.size());
+            sums.sent(*packet);
             if (!water.loses_packet()) {
                 const Arrival arrival = receiver.packet(packet->bytes);
                 for (const Fix& known : arrival.fixes) {
@@ -113,21 +131,30 @@ LinkReport simulate_link(std::span<const Fix> track, const LinkOptions& options,
                     const bool is_right =
                         at != number_of.end() && track[at->second - 1].cell == known.cell;
                     if (is_right) age.newest(at->second);
-                    ++(is_right ? report.arrived : report.wrong);
+                    ++(is_right ? sums.report.arrived : sums.report.wrong);
                 }
                 if (!water.loses_ack()) sender.acknowledge(arrival.ack);
             }
         }
-        age.slot(report.sampled);
+        age.slot(sampled);
     }
-    const auto each = [](double sum, std::size_t of) {
-        return of == 0 ? 0 : sum / static_cast<double>(of);
-    };
-    report.cost = {each(bits, report.packets), age.mean(), true};
-    report.header_bits = each(header_bits, report.packets);
-    report.start_bits = start_bits;
-    report.air_bytes = each(bytes, report.packets + report.starts);
-    return report;
+    sums.ages += age.mean();
+    sums.report.sampled += sampled;
+}
+
+}  // namespace
+
+LinkReport simulate_link(std::span<const Fix> track, const LinkOptions& options, const Codec& codec,
+                         const Horizon& horizon, std::size_t max_bytes, const Losses& losses,
+                         std::size_t runs) {
+    Sums sums;
+    for (std::size_t run = 0; run < runs; ++run) {
+        Losses these = losses;
+        these.seed += run;
+        run_link(track, Sender(options, codec, horizon), Receiver(options, codec, horizon),
+                 max_bytes, these, sums);
+    }
+    return sums.mean(runs);
 }
 
 }  // namespace seautils::position

@@ -39,12 +39,12 @@ LinkCost simulate_full(double full_bits, const Losses& losses, std::size_t slots
 LinkCost simulate_arq(double delta_bits, double packet_bits, const Losses& losses,
                       std::size_t slots);
 
-/// What a Sender and a Receiver make of a track.
+/// What a Sender and a Receiver make of a track: numbers are of all runs together.
 struct LinkReport {
     LinkCost cost;           ///< bits of header and positions of a packet, once the start of the
                              ///< session is acknowledged; neither check nor filling
     double header_bits = 0;  ///< of these, the header
-    double start_bits = 0;   ///< of all packets before that together
+    double start_bits = 0;   ///< of all packets of a run before that
     double air_bytes = 0;    ///< of a packet, all of it
     std::size_t sampled = 0;
     std::size_t arrived = 0;  ///< when the track ended
@@ -55,8 +55,10 @@ struct LinkReport {
 
 /// @param track      at least one, in order of time
 /// @param max_bytes  of a packet, with its check
+/// @param runs       how often the track is sent, from nothing, over a sea with the next seed
 LinkReport simulate_link(std::span<const Fix> track, const LinkOptions& options, const Codec& codec,
-                         const Horizon& horizon, std::size_t max_bytes, const Losses& losses);
+                         const Horizon& horizon, std::size_t max_bytes, const Losses& losses,
+                         std::size_t runs = 1);
 
 }  // namespace seautils::position
 

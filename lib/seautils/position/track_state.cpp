@@ -3,13 +3,15 @@
 #include "seautils/core/error.hpp"
 #include "seautils/core/random.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace seautils::position {
 
 namespace {
 
-constexpr std::uint8_t state_version = 1;
+constexpr std::uint8_t state_version = 2;
 
 /// Of a full fix where others are usual, in 1/65536: costs those 0.00035 bit.
 constexpr std::uint32_t full_chance = 16;
@@ -21,11 +23,6 @@ std::uint64_t word(std::int32_t high, std::int32_t low) {
 void check_time(std::int64_t time_ms) {
     if (time_ms < 0 || time_ms > most_time_ms)
         throw DataError("packet: a time is out of its range");
-}
-
-/// What lies `part` of `whole` on the way.
-std::int32_t between(std::int32_t from, std::int32_t to, std::int64_t part, std::int64_t whole) {
-    return static_cast<std::int32_t>(from + (std::int64_t{to} - from) * part / whole);
 }
 
 }  // namespace
@@ -93,7 +90,10 @@ TrackState::TrackState(const TrackState& other)
       start_ms_(other.start_ms_),
       number_(other.number_),
       last_(other.last_),
-      mark_(other.mark_) {}
+      mark_(other.mark_),
+      mean_skipped_q8_(other.mean_skipped_q8_),
+      averaged_(other.averaged_),
+      since_jump_(other.since_jump_) {}
 
 TrackState& TrackState::operator=(const TrackState& other) { return *this = TrackState(other); }
 
@@ -107,7 +107,19 @@ Step TrackState::step_to(const Fix& fix, std::uint32_t ahead) const {
     return {ahead, !follows, fix};
 }
 
+/// A Rice code's best parameter for a geometric distribution of that mean: the width of 0.72 of it.
+Habit TrackState::habit() const {
+    if (since_jump_ == long_since) return {};
+    const auto most = static_cast<std::uint64_t>(mean_skipped_q8_ * 184 >> 16);
+    return {true, static_cast<unsigned>(std::bit_width(most))};
+}
+
 void TrackState::note(const Step& step) {
+    const std::int64_t skipped = std::int64_t{step.ahead} - 1;
+    if (skipped > 0 && since_jump_ == long_since) averaged_ = 0;
+    averaged_ = std::min(averaged_ + 1, long_since);
+    mean_skipped_q8_ += (skipped * 256 - mean_skipped_q8_) / averaged_;
+    since_jump_ = skipped > 0 ? 0 : std::min(since_jump_ + 1, long_since);
     number_ += step.ahead;
     last_ = step.fix;
     mark_ = mark_after(mark_, step);
@@ -121,22 +133,10 @@ void TrackState::learn(const Step& step) {
         codec_->learn(step.fix.cell);
         horizon_->learn(step.fix.cell);
     } else {
-        learn_jump(step);
+        codec_->learn_ahead(step.ahead, last_.cell, step.fix.cell);
+        horizon_->learn_ahead(step.ahead, step.fix.cell);
     }
     note(step);
-}
-
-/// The codec takes it that the vehicle went straight on: it starts anew one interval before.
-void TrackState::learn_jump(const Step& step) {
-    const Cell &a = last_.cell, &b = step.fix.cell;
-    const std::int64_t part = step.ahead - 1, whole = step.ahead;
-    codec_->restart({between(a.x, b.x, part, whole), between(a.y, b.y, part, whole),
-                     between(a.z, b.z, part, whole)});
-    if (codec_->can_encode(b))
-        codec_->learn(b);
-    else
-        codec_->restart(b);
-    horizon_->learn_ahead(step.ahead, b);
 }
 
 void TrackState::encode(const Step& step, entropy::Encoder& out) {
@@ -217,6 +217,9 @@ std::string TrackState::save() const {
     put_word(out, number_);
     put_word(out, mark_);
     put(out, last_);
+    out.number(mean_skipped_q8_);
+    out.number(averaged_);
+    out.number(since_jump_);
     out.text(codec_->save());
     out.text(horizon_->save());
     return out.finish();
@@ -229,6 +232,9 @@ void TrackState::load(std::string_view state) {
     next.number_ = get_number(in);
     next.mark_ = get_word(in);
     next.last_ = get_fix(in);
+    next.mean_skipped_q8_ = in.number(0, std::int64_t{most_ahead} * 256);
+    next.averaged_ = in.number(0, long_since);
+    next.since_jump_ = in.number(0, long_since);
     next.codec_->load(in.text());
     next.horizon_->load(in.text());
     in.finish();

@@ -32,6 +32,8 @@ public:
     const Fix& last() const { return last_; }
     /// Stands for all steps learnt, the session and the options.
     std::uint64_t mark() const { return mark_; }
+    /// How far ahead positions were of late.
+    Habit habit() const;
     /// When a position so many intervals later is due.
     std::int64_t due_ms(std::uint32_t ahead) const;
 
@@ -56,8 +58,9 @@ public:
     void load(std::string_view state);
 
 private:
+    static constexpr std::int64_t long_since = 16;
+
     Step full_step(std::uint32_t ahead, entropy::Decoder& in) const;
-    void learn_jump(const Step& step);
     Step decoded(const std::optional<Cell>& cell);
     void note(const Step& step);
 
@@ -68,6 +71,9 @@ private:
     std::uint64_t number_ = 0;
     Fix last_;
     std::uint64_t mark_;
+    std::int64_t mean_skipped_q8_ = 0;      ///< intervals between positions that stayed unknown
+    std::int64_t averaged_ = 0;             ///< steps in that mean, at most long_since
+    std::int64_t since_jump_ = long_since;  ///< steps, at most that
 };
 
 /// Any 64 bits. (A number of a position: get_number() refuses what would overflow.)
