@@ -384,6 +384,9 @@ lloyd_env() {
     assert_line --index 0 'depth_m\range_m,500,1000,1500'
     grep -q 'transmission loss, dB re 1 m' loss.svg
     grep -q 'sound speed, m/s' loss.svg
+    run_quiet tl-model --engine rays -f csv --plot rays.svg --rays 9 lloyd.json
+    assert [ "$(grep -c '<path' rays.svg)" -ge "$(($(grep -c '<path' loss.svg) + 9))" ]
+    assert_says 64 'option --rays needs --plot' tl-model --engine rays --rays 9 lloyd.json
     run_quiet tl-model --engine rays --arrivals --plot arrivals.png lloyd.json
     assert_equal "$(head -c 4 arrivals.png | tail -c 3)" PNG
     assert_says 64 "option --plot: 'a.gif' ends neither in .png nor .svg" tl-model --plot a.gif lloyd.json

@@ -51,6 +51,7 @@ public:
         whole(app, "--engine-memory", memory_mib_, "It may take (2048)", 16, 1'048'576, "MIB");
         app.add_option("--plot", plot_, "Draw the last result into a .png or .svg file")
             ->option_text("FILE");
+        whole(app, "--rays", rays_, "Draw so many rays over the losses", 1, 1000, "N");
         app.add_option("--base", base, "CASE.json or .env that requests begin with")
             ->option_text("FILE");
     }
@@ -72,7 +73,11 @@ public:
     }
 
     /// Checks what the command line has left to check. @throws Error(usage)
-    void settle() { picture_ = Gnuplot::target(plot_); }
+    void settle() {
+        picture_ = Gnuplot::target(plot_);
+        if (rays_ && plot_.empty()) throw Error(ExitCode::usage, "option --rays needs --plot");
+    }
+    std::size_t rays() const { return rays_.value_or(0); }
     const Gnuplot::Target& picture() const { return picture_; }
 
     toolbox::ShdLayout shd_layout() const {
@@ -146,7 +151,7 @@ private:
     std::string plot_;
     Gnuplot::Target picture_;
     std::optional<std::string> sum_, beam_, engine_, shd_format_;
-    std::optional<std::uint32_t> beams_, threads_, jobs_, memory_mib_;
+    std::optional<std::uint32_t> beams_, threads_, jobs_, memory_mib_, rays_;
     std::optional<double> least_amplitude_, timeout_s_;
 };
 

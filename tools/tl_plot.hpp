@@ -5,6 +5,8 @@
 #include "gnuplot.hpp"
 #include "tl_answer.hpp"
 
+#include "seautils/propagation/rays.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,11 +20,12 @@ namespace seautils::tools {
 
 class TlPlot {
 public:
+    /// @param rays  that are drawn over losses
     /// @throws as Gnuplot::draw()
-    static void draw(const Gnuplot::Target& target, const TlResult& result) {
+    static void draw(const Gnuplot::Target& target, const TlResult& result, std::size_t rays) {
         const bool has_loss = !result.field.loss_db.empty();
         Gnuplot::draw(target, "set terminal " + target.terminal + "\nset encoding utf8\n" +
-                                  (has_loss ? losses(result) : arrivals(result)));
+                                  (has_loss ? losses(result, rays) : arrivals(result)));
     }
 
 private:
@@ -40,12 +43,13 @@ private:
         return text;
     }
 
-    static std::string losses(const TlResult& result) {
+    static std::string losses(const TlResult& result, std::size_t rays) {
         const pg::Environment& e = result.task->environment;
         std::string s;
         add_profile_data(s, e);
         add_grid_data(s, e.receivers, result.field.loss_db);
         add_line_data(s, e);
+        if (rays > 0) add_ray_data(s, e, result.task->options, rays);
         const double deepest_m = std::max(e.bottom_depth_m, e.receivers.depth_m.back());
         const auto [least_db, most_db] = range_db(result.field.loss_db);
         add(s, "set multiplot title '{}' noenhanced\nset yrange [{}:0]\nset ylabel 'depth, m'\n",
@@ -64,8 +68,9 @@ private:
             "set lmargin at screen 0.31\nset rmargin at screen 0.86\nunset ylabel\nunset grid\n"
             "set xlabel 'range, km'\nset xtics norotate\nset xrange [0:{}]\nset view map\n",
             e.receivers.range_m.back() / 1000);
-        s += "splot $grid nonuniform matrix using ($1/1000):2:3 with pm3d notitle, "
-             "$bottom using 1:2:(0) with lines lw 3 lc rgb '#D55E00' notitle, "
+        s += "splot $grid nonuniform matrix using ($1/1000):2:3 with pm3d notitle, ";
+        if (rays > 0) s += "$rays using 1:2:(0) with lines lw 0.5 lc rgb '#000000' notitle, ";
+        s += "$bottom using 1:2:(0) with lines lw 3 lc rgb '#D55E00' notitle, "
              "$source using 1:2:(0) with points pt 7 ps 1.5 lc rgb '#000000' notitle\n"
              "unset multiplot\n";
         return s;
@@ -114,6 +119,17 @@ private:
                 if (e.bottom_line->range_m[k] > 0 && e.bottom_line->range_m[k] < last_m)
                     add(s, "{} {}\n", e.bottom_line->range_m[k] / 1000, e.bottom_line->depth_m[k]);
         add(s, "{} {}\nEND\n", last_m / 1000, bottom_depth_m(e, last_m));
+    }
+
+    static void add_ray_data(std::string& s, const pg::Environment& e,
+                             const pg::FieldOptions& options, std::size_t rays) {
+        s += "$rays << END\n";
+        for (const pg::RayPath& path : pg::ray_paths(e, options, rays)) {
+            for (std::size_t k = 0; k < path.range_m.size(); ++k)
+                add(s, "{:.4f} {:.2f}\n", path.range_m[k] / 1000, path.depth_m[k]);
+            s += "\n\n";
+        }
+        s += "END\n";
     }
 
     /// Tens of decibels between which nine tenths of the losses are.

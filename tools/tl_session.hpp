@@ -46,7 +46,7 @@ public:
             else
                 answer_requests(file, form);
         }
-        if (last_) TlPlot::draw(options_.picture(), *last_);
+        if (last_) TlPlot::draw(options_.picture(), *last_, options_.rays());
     }
 
 private:

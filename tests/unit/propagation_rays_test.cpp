@@ -362,5 +362,51 @@ TEST(Rays, NoValueWhereThereIsNoWaterAndAtRangeZero) {
     for (std::size_t k = 0; k < 9; ++k) EXPECT_EQ(arrivals[k].arrivals.empty(), none[k]) << k;
 }
 
+/// In c = 1500 + 0.05 z a ray is an arc of a circle about the depth where c would be 0.
+TEST(RayPaths, AreArcsWhereTheGradientIsConstant) {
+    Environment sea;
+    sea.frequency_hz = 1000;
+    sea.water.profile = {{0, 1500}, {3000, 1650}};
+    sea.bottom_depth_m = 3000;
+    sea.source.depth_m = 1000;
+    sea.receivers = {{10}, {4000}};
+    sea.fan = {-5, 5, 0};
+    const auto paths = ray_paths(sea, {}, 3);
+    ASSERT_EQ(paths.size(), 3);
+    for (const auto& path : paths) {
+        ASSERT_GT(path.range_m.size(), 300);
+        ASSERT_EQ(path.range_m.size(), path.depth_m.size());
+        const double launch_rad = path.launch_deg * std::numbers::pi / 180;
+        const double radius_m = 1550 / (0.05 * std::cos(launch_rad));
+        const double centre_z_m = -1500 / 0.05;
+        const double centre_r_m = radius_m * std::sin(launch_rad);
+        for (std::size_t k = 0; k < path.range_m.size(); ++k)
+            EXPECT_NEAR(std::hypot(path.range_m[k] - centre_r_m, path.depth_m[k] - centre_z_m),
+                        radius_m, 1e-3);
+        EXPECT_NEAR(path.range_m.back(), 4000, 1e-6);
+    }
+    EXPECT_DOUBLE_EQ(paths[0].launch_deg, -5);
+    EXPECT_DOUBLE_EQ(paths[1].launch_deg, 0);
+    EXPECT_DOUBLE_EQ(paths[2].launch_deg, 5);
+}
+
+TEST(RayPaths, EndWhereTheyLeaveTheWaterOrAreWeak) {
+    Environment sea;
+    sea.frequency_hz = 1000;
+    sea.water.profile = {{0, 1500}};
+    sea.bottom_depth_m = 100;
+    sea.bottom.kind = BoundaryKind::half_space;
+    sea.bottom.sound_speed_mps = 1500;
+    sea.bottom.density_gcm3 = 1;
+    sea.source.depth_m = 50;
+    sea.receivers = {{10}, {1000}};
+    sea.fan = {-80, 80, 0};
+    // Nothing comes back from a bottom that is water: up, and then down once.
+    const auto paths = ray_paths(sea, {}, 2);
+    EXPECT_NEAR(paths[1].depth_m.back(), 100, 1e-6);
+    EXPECT_NEAR(paths[1].range_m.back(), 50 / std::tan(80 * std::numbers::pi / 180), 1e-6);
+    EXPECT_NEAR(paths[0].range_m.back(), 150 / std::tan(80 * std::numbers::pi / 180), 1e-6);
+}
+
 }  // namespace
 }  // namespace seautils::propagation

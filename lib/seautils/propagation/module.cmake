@@ -21,6 +21,7 @@ seautils_module(NAME propagation
     ray_beam.cpp
     ray_fan.cpp
     ray_layers.cpp
+    ray_paths.cpp
     ray_sea.cpp
     ray_tracer.cpp
     rays.cpp

@@ -3,6 +3,7 @@
 
 #include "seautils/propagation/field.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace seautils::propagation {
@@ -21,6 +22,19 @@ Field ray_field(const Environment& environment, const FieldOptions& options);
 /// @throws DataError  check() does; finding them would take minutes
 std::vector<ReceiverArrivals> ray_arrivals(const Environment& environment,
                                            const FieldOptions& options);
+
+/// How a ray runs: points on it, closely enough for a picture.
+struct RayPath {
+    double launch_deg = 0;  ///< positive down
+    std::vector<double> range_m, depth_m;
+};
+
+/// Rays at `count` launch angles, evenly over the fan, as far as the farthest receiver; each ends where
+/// its boundaries have left less than options.least_amplitude, or after 20,000 points.
+/// @param count  1 to 1000
+/// @throws DataError  check() does
+std::vector<RayPath> ray_paths(const Environment& environment, const FieldOptions& options,
+                               std::size_t count);
 
 }  // namespace seautils::propagation
 
