@@ -89,7 +89,7 @@ public:
         app.add_option("--model", model_, "Of fixed, kalman: adaptive (default), gaussian, uniform")
             ->check(one_of({"uniform", "gaussian", "adaptive"}))
             ->option_text("MODEL");
-        app.add_flag("--small", small_, "Of mix: half the memory");
+        app.add_flag("--small", small_, "Of mix: two thirds of the memory");
         app.add_option("--tau", tau_, "Between samples, 10")
             ->check(thousandths_within(0.001, 86'400, "s"))
             ->option_text("SECONDS");

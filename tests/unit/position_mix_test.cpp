@@ -386,7 +386,7 @@ TEST(Mix, ReferenceFiguresOnWholeTracks) {
         EXPECT_LT(eight, 1.03 * track.eight);
         CodecOptions small;
         small.small = true;
-        EXPECT_LT(bits_a_delta(track.runs, small, 8), eight + 0.06);
+        EXPECT_LT(bits_a_delta(track.runs, small, 8), eight + 0.05);
         if (positions > 1200) continue;
         const double alone = bits_a_delta(track.runs, {}, 1);
         EXPECT_LT(alone, 1.03 * track.alone);

@@ -78,7 +78,7 @@ struct CodecOptions {
     std::int64_t interval_ms = 10'000;   ///< between positions, tau: 1 to 86,400,000
     std::int64_t speed_mmps = 1'500;     ///< the vehicle's usual speed: 1 to 100,000; fixed, kalman
     std::int64_t resolution_mm = 1'000;  ///< of a Cell: 1 to 1,000,000
-    bool small = false;                  ///< mix: half the memory
+    bool small = false;                  ///< mix: two thirds of the memory
     /// mix: the waypoints of the mission in order, at most 65,535; x, y and z of each, cells. Both ends
     /// know them: turns then are no surprise. None: no plan.
     std::vector<Cell> plan;
