@@ -1,84 +1,24 @@
 // Modes against the reference fields of ../shared/cases, to the tolerances of specs/acoustics-accuracy.md.
+#include "propagation_cases.hpp"
+
 #include "seautils/propagation/modes.hpp"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <memory>
-#include <sstream>
-#include <string>
 #include <vector>
 
 namespace seautils::propagation {
 namespace {
-
-using nlohmann::json;
-
-std::filesystem::path case_folder(const std::string& name) {
-    const char* shared = std::getenv("SEAUTILS_SHARED");
-    return std::filesystem::path(shared ? shared
-                                        : std::string(SEAUTILS_SOURCE_DIR) + "/../shared") /
-           "cases" / name;
-}
-
-/// The losses of a reference, line by line, without the ranges and depths.
-std::vector<float> reference(const std::filesystem::path& file) {
-    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(
-        popen(("gzip -dc '" + file.string() + "'").c_str(), "r"), pclose);
-    std::string text;
-    char part[65536];
-    for (std::size_t n; (n = std::fread(part, 1, sizeof part, pipe.get())) > 0;)
-        text.append(part, n);
-    std::istringstream lines(text);
-    std::vector<float> losses;
-    std::string line, cell;
-    std::getline(lines, line);
-    while (std::getline(lines, line)) {
-        std::istringstream cells(line);
-        std::getline(cells, cell, ',');
-        while (std::getline(cells, cell, ',')) losses.push_back(std::strtof(cell.c_str(), nullptr));
-    }
-    return losses;
-}
-
-std::vector<double> linspace(const json& range) {
-    const double start = range["start"], stop = range["stop"];
-    const int count = range["count"];
-    std::vector<double> out;
-    for (int k = 0; k < count; ++k) out.push_back(start + (stop - start) * k / (count - 1));
-    return out;
-}
-
-Environment sea_of(const std::filesystem::path& folder) {
-    const json about = json::parse(std::ifstream(folder / "case.json"));
-    Environment e;
-    e.frequency_hz = about["frequency_hz"];
-    e.source.depth_m = about["source"]["depth_m"];
-    e.receivers = {linspace(about["receivers"]["depth_m"]),
-                   linspace(about["receivers"]["range_m"])};
-    for (const auto& point : about["water"]["profile_z_c"])
-        e.water.profile.push_back({point[0], point[1]});
-    const json& bottom = about["bottom"];
-    e.bottom_depth_m = bottom["depth_m"];
-    e.bottom.kind = BoundaryKind::half_space;
-    e.bottom.sound_speed_mps = bottom["sound_speed_m_s"];
-    e.bottom.density_gcm3 = bottom["density_g_cm3"];
-    e.bottom.attenuation_db_per_wavelength = bottom["attenuation_db_per_wavelength"];
-    return e;
-}
 
 struct Score {
     double median = 0, p95 = 0;
     std::size_t missing = 0;
 };
 
-Score score(const Environment& e, const Field& field, const std::vector<float>& losses,
+Score score(const Environment& e, const Field& field, const std::vector<double>& losses,
             double beyond_m) {
     Score s;
     std::vector<double> d;
@@ -105,14 +45,12 @@ class PropagationModesCase : public testing::TestWithParam<Held> {};
 
 TEST_P(PropagationModesCase, IsWithinItsTolerance) {
     const Held held = GetParam();
-    const std::filesystem::path folder = case_folder(held.name);
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
-    const Environment e = sea_of(folder);
+    if (!std::filesystem::exists(cases())) GTEST_SKIP() << "no reference cases";
+    const ReferenceCase world(held.name);
+    const Environment& e = world.sea;
     FieldOptions options;
     options.sum = held.sum;
-    const std::string file = std::string(held.reference) + ".csv.gz";
-    const Score s =
-        score(e, mode_field(e, options), reference(folder / "csv" / file), held.beyond_m);
+    const Score s = score(e, mode_field(e, options), world.grid(held.reference), held.beyond_m);
     EXPECT_LE(s.median, held.median);
     EXPECT_LE(s.p95, held.p95);
     EXPECT_EQ(s.missing, 0U);
@@ -126,13 +64,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Held{"p4-munk-50", "krakenc_inc", Sum::incoherent, 15000, 0.04, 0.25}));
 
 TEST(PropagationWavenumberCase, PekerisIsAsByContourIntegration) {
-    const std::filesystem::path folder = case_folder("p2-pekeris-250");
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
-    const Environment e = sea_of(folder);
+    if (!std::filesystem::exists(cases())) GTEST_SKIP() << "no reference cases";
+    const ReferenceCase world("p2-pekeris-250");
+    const Environment& e = world.sea;
     FieldOptions options;
     options.sum = Sum::coherent;
-    const Score s = score(e, wavenumber_field(e, options),
-                          reference(folder / "csv" / "analytic_coh.csv.gz"), 0);
+    const Score s = score(e, wavenumber_field(e, options), world.grid("analytic_coh"), 0);
     EXPECT_LE(s.median, 0.01);
     EXPECT_LE(s.p95, 0.06);
 }

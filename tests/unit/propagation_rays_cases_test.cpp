@@ -1,130 +1,22 @@
 // Rays against the reference fields and arrivals of ../shared/cases, to the tolerances of
 // specs/acoustics-accuracy.md.
+#include "propagation_cases.hpp"
 #include "sanitized.hpp"
 
 #include "seautils/propagation/rays.hpp"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <memory>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace seautils::propagation {
 namespace {
-
-using nlohmann::json;
-
-std::filesystem::path cases() {
-    const char* shared = std::getenv("SEAUTILS_SHARED");
-    const std::filesystem::path folder =
-        shared ? shared : std::string(SEAUTILS_SOURCE_DIR) + "/../shared";
-    return folder / "cases";
-}
-
-std::string unpacked(const std::filesystem::path& file) {
-    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(
-        popen(("gzip -dc '" + file.string() + "'").c_str(), "r"), pclose);
-    std::string text;
-    char part[65536];
-    for (std::size_t n; (n = std::fread(part, 1, sizeof part, pipe.get())) > 0;)
-        text.append(part, n);
-    return text;
-}
-
-std::vector<double> linspace(const json& range) {
-    const double start = range["start"], stop = range["stop"];
-    const int count = range["count"];
-    std::vector<double> out;
-    for (int k = 0; k < count; ++k) out.push_back(start + (stop - start) * k / (count - 1));
-    return out;
-}
-
-void set_water(const json& from, WaterColumn& water) {
-    SpeedMesh mesh;
-    for (const auto& point : from["profile_z_c"]) {
-        water.profile.push_back({point[0], point[1]});
-        mesh.depth_m.push_back(point[0]);
-    }
-    const json& ranges = from["range_dependent"];
-    if (!ranges.is_null()) {
-        mesh.range_m = ranges["ranges_m"].get<std::vector<double>>();
-        for (const auto& row : ranges["c_rows_by_depth"])
-            mesh.sound_speed_mps.insert(mesh.sound_speed_mps.end(), row.begin(), row.end());
-        water.mesh = mesh;
-    }
-    const json& absorption = from["absorption"];
-    if (absorption["model"] == "thorp-jkps") water.absorption.model = AbsorptionModel::thorp;
-    if (absorption["model"] == "francois-garrison")
-        water.absorption = {AbsorptionModel::francois_garrison,
-                            absorption["temperature_c"],
-                            absorption["salinity_psu"],
-                            absorption["ph"],
-                            absorption["depth_m"],
-                            0};
-}
-
-struct Case {
-    std::filesystem::path folder;
-    json about;
-    Environment sea;
-
-    explicit Case(const std::string& name) : folder(cases() / name) {
-        about = json::parse(std::ifstream(folder / "case.json"));
-        sea.frequency_hz = about["frequency_hz"];
-        sea.source.depth_m = about["source"]["depth_m"];
-        if (about["source"]["beam_pattern_deg_db"].is_array())
-            for (const auto& point : about["source"]["beam_pattern_deg_db"])
-                sea.source.pattern.push_back({point[0], point[1]});
-        sea.receivers = {linspace(about["receivers"]["depth_m"]),
-                         linspace(about["receivers"]["range_m"])};
-        set_water(about["water"], sea.water);
-        const json& bottom = about["bottom"];
-        sea.bottom_depth_m = bottom["depth_m"];
-        sea.bottom = {BoundaryKind::half_space,
-                      bottom["sound_speed_m_s"],
-                      0,
-                      bottom["density_g_cm3"],
-                      bottom["attenuation_db_per_wavelength"],
-                      0,
-                      0,
-                      {}};
-        if (bottom["bathymetry"].is_object()) {
-            sea.bottom_line.emplace();
-            for (const auto& point : bottom["bathymetry"]["points"]) {
-                sea.bottom_line->range_m.push_back(point[0]);
-                sea.bottom_line->depth_m.push_back(point[1]);
-            }
-        }
-        sea.fan = {about["fan"]["min_deg"], about["fan"]["max_deg"], 0};
-    }
-
-    /// [depth][range], dB; empty cells are NaN.
-    std::vector<double> grid(const std::string& key) const {
-        std::istringstream lines(unpacked(folder / "csv" / (key + ".csv.gz")));
-        std::vector<double> out;
-        std::string line, cell;
-        std::getline(lines, line);
-        while (std::getline(lines, line)) {
-            std::istringstream cells(line);
-            std::getline(cells, cell, ',');
-            while (std::getline(cells, cell, ','))
-                out.push_back(cell.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                           : std::strtod(cell.c_str(), nullptr));
-        }
-        return out;
-    }
-};
 
 /// Intensity averaged over 5 depths and 9 ranges; edges are mirrored. Only cells in the water
 /// count.
@@ -158,7 +50,7 @@ double quantile(std::vector<double> sorted, double part) {
 }
 
 /// Cells in the water whose reference is below 110 dB, from `least_range_m` on.
-void expect_near(const Case& world, const Field& field, const std::string& key,
+void expect_near(const ReferenceCase& world, const Field& field, const std::string& key,
                  const Tolerance& tolerance, bool smooth = false, double least_range_m = 0) {
     SCOPED_TRACE(world.folder.filename().string() + " " + key);
     const auto water = world.grid("in_water");
@@ -209,7 +101,7 @@ const std::vector<std::string> level{"p1-glint10-25k", "p2-pekeris-250", "p3-llo
 TEST(RaysOfCases, IncoherentAndSemiCoherentWithTheAutomaticFan) {  // A1, A5
     NEEDS_CASES();
     for (const auto& name : level) {
-        const Case world(name);
+        const ReferenceCase world(name);
         expect_near(world, ray_field(world.sea, {}), "bellhop_gauss_inc", {0.05, 0.5, 1.5, 0.08});
         expect_near(world, ray_field(world.sea, options_of(Sum::semi_coherent)),
                     "bellhop_gauss_semi", {0.075, 0.75, 2.25, 0.12});
@@ -218,14 +110,14 @@ TEST(RaysOfCases, IncoherentAndSemiCoherentWithTheAutomaticFan) {  // A1, A5
 
 TEST(RaysOfCases, OverABeach) {  // A2
     NEEDS_CASES();
-    const Case world("p5-beach-3k5");
+    const ReferenceCase world("p5-beach-3k5");
     expect_near(world, ray_field(world.sea, {}), "bellhop_gauss_inc", {0.10, 1.2, 3.2});
 }
 
 TEST(RaysOfCases, HatsWithTheAutomaticFan) {  // A4
     NEEDS_CASES();
     for (const auto& name : level) {
-        const Case world(name);
+        const ReferenceCase world(name);
         expect_near(world, ray_field(world.sea, options_of(Sum::incoherent, Beam::hat)),
                     "bellhop_hat_inc", {0.05, 0.6, 2.0});
     }
@@ -235,7 +127,7 @@ TEST(RaysOfCases, CoherentWithTheReferencesFan) {  // B1, B2
     NEEDS_CASES();
     if (is_sanitized) GTEST_SKIP() << "sanitizers: shorter tests walk the same code";
     for (const auto& name : level) {
-        Case world(name);
+        ReferenceCase world(name);
         world.sea.fan.beams = world.about["reference_run"]["beams"];
         const bool short_waves = name[1] == '1' || name[1] == '6' || name[1] == '7';
         expect_near(world, ray_field(world.sea, options_of(Sum::coherent)), "bellhop_gauss_coh",
@@ -245,7 +137,7 @@ TEST(RaysOfCases, CoherentWithTheReferencesFan) {  // B1, B2
 
 TEST(RaysOfCases, LloydsMirror) {  // B3
     NEEDS_CASES();
-    const Case world("p3-lloyd-400");
+    const ReferenceCase world("p3-lloyd-400");
     const auto field = [&](Sum sum) { return ray_field(world.sea, options_of(sum, Beam::hat)); };
     expect_near(world, field(Sum::incoherent), "analytic_inc", {0.01, 0.05});
     expect_near(world, field(Sum::semi_coherent), "analytic_semi", {0.01, 0.05});
@@ -254,7 +146,7 @@ TEST(RaysOfCases, LloydsMirror) {  // B3
 
 TEST(RaysOfCases, Pekeris) {  // B4
     NEEDS_CASES();
-    Case world("p2-pekeris-250");
+    ReferenceCase world("p2-pekeris-250");
     world.sea.fan.beams = world.about["reference_run"]["beams"];
     expect_near(world, ray_field(world.sea, options_of(Sum::coherent, Beam::hat)), "analytic_coh",
                 {0.6, 3.0}, false, 300);
@@ -303,7 +195,7 @@ TEST(RaysOfCases, ExactArrivals) {  // D1 and D2, as proud as they may be; D3
     NEEDS_CASES();
     for (const auto& name : level) {
         SCOPED_TRACE(name);
-        Case world(name);
+        ReferenceCase world(name);
         world.sea.receivers = {world.about["arrivals"]["depth_m"].get<std::vector<double>>(),
                                world.about["arrivals"]["range_m"].get<std::vector<double>>()};
         const auto found = ray_arrivals(world.sea, {});
@@ -334,7 +226,7 @@ TEST(RaysOfCases, ExactArrivals) {  // D1 and D2, as proud as they may be; D3
 
 TEST(RaysOfCases, ArrivalsOverABeach) {  // D1, against beams: those come in pairs, or not at all
     NEEDS_CASES();
-    Case world("p5-beach-3k5");
+    ReferenceCase world("p5-beach-3k5");
     world.sea.receivers = {world.about["arrivals"]["depth_m"].get<std::vector<double>>(),
                            world.about["arrivals"]["range_m"].get<std::vector<double>>()};
     const auto found = ray_arrivals(world.sea, {});
