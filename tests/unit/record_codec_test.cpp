@@ -253,6 +253,49 @@ std::string fault(const std::string& text, Form form = Form::ndjson) {
     return "taken";
 }
 
+TEST(RecordCodec, APackingOfTheOtherFormIsOfNoMeaningAndPassedOn) {
+    Codec codec;
+    const std::string bytes("\x32\x02\x08\x02\x9a\x06\x01x", 8);  // ack { src: 2 }, as_binary
+    std::string json, back;
+    Record r;
+    codec.convert(bytes, Form::delimited, Form::ndjson, json);
+    codec.read(unframed(json, Form::ndjson), Form::ndjson, r);
+    ASSERT_NE(r.as<Ack>(), nullptr);
+    EXPECT_EQ(r.as<Ack>()->src, 2U);
+    codec.convert(unframed(json, Form::ndjson), Form::ndjson, Form::delimited, back);
+    EXPECT_EQ(unframed(back, Form::delimited), bytes);
+
+    const std::string line = R"({"ack":{"src":2},"as_json":"x"})";
+    std::string binary, again;
+    codec.convert(line, Form::ndjson, Form::delimited, binary);
+    codec.read(unframed(binary, Form::delimited), Form::delimited, r);
+    EXPECT_NE(r.as<Ack>(), nullptr);
+    codec.convert(unframed(binary, Form::delimited), Form::delimited, Form::ndjson, again);
+    EXPECT_EQ(again, line + "\n");
+}
+
+/// What converting a binary record that holds this line says.
+std::string fault_of_packed(const std::string& line) {
+    const std::string bytes = "\x92\x06" + std::string(1, static_cast<char>(line.size())) + line;
+    try {
+        Codec codec;
+        std::string out;
+        codec.convert(bytes, Form::delimited, Form::ndjson, out);
+        return out;
+    } catch (const DataError& e) {
+        return e.what();
+    }
+}
+
+TEST(RecordCodec, WhatIsPackedUpIsARecordOfOneLine) {
+    EXPECT_EQ(fault_of_packed(R"({"ack":{"src":2},"other":1})"),
+              "{\"ack\":{\"src\":2},\"other\":1}\n");
+    EXPECT_EQ(fault_of_packed("{\"ack\":\n{\"src\":2}}"), "as_json: more than one line");
+    EXPECT_EQ(fault_of_packed(R"({"ack":{},"as_binary":"MgIIAg=="})"),
+              "a record is packed in a packed one");
+    EXPECT_NE(fault_of_packed("rm -r"), "rm -r\n");
+}
+
 TEST(RecordCodec, WhatIsNoRecordIsRefused) {
     EXPECT_EQ(fault("{}"), "the record is of no kind: there is only a time, or nothing");
     EXPECT_EQ(fault(R"({"time":"noon","ack":{}})"),

@@ -9,6 +9,8 @@
 #include "seautils/stream/hex.hpp"
 
 #include <map>
+#include <optional>
+#include <string>
 #include <type_traits>
 
 namespace seautils::record {
@@ -289,6 +291,11 @@ constexpr auto kind_count =
 constexpr std::uint32_t as_json_slot = first_kind + kind_count;
 constexpr std::uint32_t as_binary_slot = as_json_slot + 1;
 
+Form other(Form form) { return form == Form::ndjson ? Form::delimited : Form::ndjson; }
+
+/// Where a record of this form holds one that was written in the other.
+std::uint32_t packing(Form form) { return form == Form::delimited ? as_json_slot : as_binary_slot; }
+
 }  // namespace
 
 const schema::Layout& layout() {
@@ -308,11 +315,24 @@ struct Codec::Impl {
         return json.read(text, layout(), values, schema::Unknown::skip);
     }
 
-    /// The record that a converter packed up whole, or nothing.
-    std::optional<std::string> packed(Form form) const {
-        const schema::Slot& slot = values[form == Form::delimited ? as_json_slot : as_binary_slot];
-        if (!slot.present) return std::nullopt;
-        return std::string(values.text(slot));
+    /// What a record is once it is out of the packing that a converter put around it.
+    struct Opened {
+        bool all_known = false;             ///< the other form can say all of it
+        std::optional<std::string> packed;  ///< as it was written in the other form
+    };
+
+    /// Fills `values` with the record itself.
+    Opened open(std::string_view text, Form form) {
+        const bool all_known = parse(text, form);
+        if (!values[packing(form)].present)
+            return {all_known && !values[packing(other(form))].present, std::nullopt};
+        std::string packed(values.text(values[packing(form)]));
+        if (form == Form::delimited && packed.find('\n') != std::string::npos)
+            throw DataError("as_json: more than one line");
+        const bool inner_known = parse(packed, other(form));
+        if (values[packing(other(form))].present)
+            throw DataError("a record is packed in a packed one");
+        return {inner_known, std::move(packed)};
     }
 
     void serialize(Form form) {
@@ -362,10 +382,7 @@ Codec::Codec(Codec&&) noexcept = default;
 Codec& Codec::operator=(Codec&&) noexcept = default;
 
 void Codec::read(std::string_view text, Form form, Record& record) {
-    bool all_known = impl_->parse(text, form);
-    if (const auto packed = impl_->packed(form))
-        all_known = impl_->parse(*packed, form == Form::ndjson ? Form::delimited : Form::ndjson);
-    impl_->get(record, all_known);
+    impl_->get(record, impl_->open(text, form).all_known);
 }
 
 void Codec::write(const Record& record, Form form, std::string& out) {
@@ -377,11 +394,11 @@ void Codec::write(const Record& record, Form form, std::string& out) {
 
 void Codec::convert(std::string_view text, Form from, Form to, std::string& out) {
     if (from == to) return append_framed(out, text, to);
-    const bool all_known = impl_->parse(text, from);
-    if (const auto packed = impl_->packed(from)) return append_framed(out, *packed, to);
-    if (!all_known) {
+    const Impl::Opened opened = impl_->open(text, from);
+    if (opened.packed) return append_framed(out, *opened.packed, to);
+    if (!opened.all_known) {
         impl_->values.reset(layout());
-        impl_->values.set_text(to == Form::delimited ? as_json_slot : as_binary_slot, text);
+        impl_->values.set_text(packing(to), text);
     }
     impl_->serialize(to);
     append_framed(out, impl_->bytes, to);
