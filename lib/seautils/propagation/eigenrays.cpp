@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace seautils::propagation {
 namespace {
@@ -29,15 +30,34 @@ Probe probe_on(const Leg& leg, const BeamState& state, double launch_rad, double
     return probe;
 }
 
-/// The last step of a search is not traced again: the front is plane over it, and direction changes
-/// as it did from the ray before.
-void step_on(Probe& at, const Probe& before, double down_m, double step_rad) {
-    const double apart = at.launch_rad - before.launch_rad;
-    const double turn = apart == 0 ? 0 : (at.sine - before.sine) / apart;
-    at.state.delay_s += down_m * at.sine / at.speed_mps;
+/// The last step of a search is not traced again, where it is no longer than this …
+constexpr double last_step_m = 0.02, last_step_rad = 1e-5;
+/// … the front spreads over it by no more than this part, and its direction is known to this.
+constexpr double last_growth = 0.01, last_doubt = 1e-6;
+
+/// Changes of a ray's sine with its launch.
+double turning(const Probe& a, const Probe& b) {
+    return (b.sine - a.sine) / (b.launch_rad - a.launch_rad);
+}
+
+/// Goes that step: direction and spreading change over it as they do between the ends of the
+/// bracket. False: it is too long.
+bool step_on(Probe& at, const Probe& from, const Probe& to, double down_m, double step_rad) {
+    const double width_rad = to.launch_rad - from.launch_rad;
+    const double part = (at.launch_rad - from.launch_rad) / width_rad;
+    const double before = turning(from, at), behind = turning(at, to);
+    const double growth = (to.state.q - from.state.q) / width_rad * step_rad;
+    const bool is_short = std::abs(down_m) <= last_step_m && std::abs(step_rad) <= last_step_rad &&
+                          std::abs(growth) <= last_growth * std::abs(at.state.q) &&
+                          std::abs((behind - before) * step_rad) <= last_doubt;
+    if (!is_short) return false;
+    const double turn = std::lerp(before, behind, part) * step_rad;
+    at.state.delay_s += down_m * (at.sine + 0.5 * turn) / at.speed_mps;
+    at.state.q += growth;
     at.launch_rad += step_rad;
-    at.sine = std::clamp(at.sine + turn * step_rad, -1., 1.);
+    at.sine = std::clamp(at.sine + turn, -1., 1.);
     at.cosine = std::copysign(std::sqrt(1 - at.sine * at.sine), at.cosine);
+    return true;
 }
 
 }  // namespace
@@ -50,13 +70,13 @@ std::vector<Probe> EigenraySearch::trace(double launch_rad, const std::vector<do
     count_probe();
     std::vector<Probe> out(range_m.size());
     std::size_t next = 0;
-    walk_.run<BeamState>(launch_rad, range_m.back(), least_amplitude_,
-                         [&](const Leg& leg, const BeamState& state) {
-                             const double end_m = state.range_m + leg.whole.along_m;
-                             for (; next < range_m.size() && range_m[next] <= end_m; ++next)
-                                 out[next] = probe_on(leg, state, launch_rad, range_m[next]);
-                             return next < range_m.size();
-                         });
+    walk_.run<UntimedState>(launch_rad, range_m.back(), least_amplitude_,
+                            [&](const Leg& leg, const BeamState& state) {
+                                const double end_m = state.range_m + leg.whole.along_m;
+                                for (; next < range_m.size() && range_m[next] <= end_m; ++next)
+                                    out[next] = probe_on(leg, state, launch_rad, range_m[next]);
+                                return next < range_m.size();
+                            });
     for (; next < range_m.size(); ++next) out[next].launch_rad = launch_rad;
     return out;
 }
@@ -118,28 +138,33 @@ void EigenraySearch::split(const Probe& a, const Probe& b, double range_m, int h
             brackets_.push_back({a, b, static_cast<std::size_t>(depth - depth_m_.begin())});
 }
 
-/// Newton's method, kept inside the bracket.
+/// The cubic through both ends of a bracket with the slopes that q gives there, launch over depth.
+double EigenraySearch::launch_for(const Probe& from, const Probe& to, double depth_m) const {
+    const double down_m = to.depth_m - from.depth_m, way = down_m > 0 ? 1 : -1;
+    const double part = (depth_m - from.depth_m) / down_m, rest = 1 - part;
+    const auto bend = [&](const Probe& end) {
+        const double slope = way / std::max(end.metres_per_rad(sea_.source_speed_mps), 1e-9);
+        return slope * down_m - (to.launch_rad - from.launch_rad);
+    };
+    const double launch_rad = std::lerp(from.launch_rad, to.launch_rad, part) +
+                              part * rest * (rest * bend(from) - part * bend(to));
+    const bool inside = launch_rad > from.launch_rad && launch_rad < to.launch_rad;
+    return inside ? launch_rad : std::midpoint(from.launch_rad, to.launch_rad);
+}
+
 Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
     const double depth_m = depth_m_[bracket.depth];
-    double from = bracket.a.launch_rad, to = bracket.b.launch_rad;
-    const double way = bracket.b.depth_m > bracket.a.depth_m ? 1 : -1;
-    const double part = (depth_m - bracket.a.depth_m) / (bracket.b.depth_m - bracket.a.depth_m);
-    double launch_rad = from + (to - from) * part;
-    Probe at = bracket.a;
+    Probe from = bracket.a, to = bracket.b, at = bracket.a;
+    if (from.depth_m == depth_m) return probe(from.launch_rad, range_m);
+    const double way = to.depth_m > from.depth_m ? 1 : -1;
     for (int k = 0; k < 40; ++k) {
-        const Probe before = at;
-        at = probe(launch_rad, range_m);
+        at = probe(launch_for(from, to, depth_m), range_m);
         const double short_m = way * (depth_m - at.depth_m);
         const double step_rad = short_m / at.metres_per_rad(sea_.source_speed_mps);
         if (!at.reached || std::abs(short_m) < 1e-7) break;
-        if (std::abs(short_m) < 1e-3 && std::abs(step_rad) < 1e-7) {
-            step_on(at, before, depth_m - at.depth_m, step_rad);
-            break;
-        }
-        (short_m > 0 ? from : to) = launch_rad;
-        launch_rad += step_rad;
-        if (!(launch_rad > from && launch_rad < to)) launch_rad = 0.5 * (from + to);
-        if (to - from < 1e-15) break;
+        if (step_on(at, from, to, depth_m - at.depth_m, step_rad)) break;
+        (short_m > 0 ? from : to) = at;
+        if (to.launch_rad - from.launch_rad < 1e-15) break;
     }
     return at;
 }

@@ -35,7 +35,7 @@ public:
     /// @throws DataError  (all but this) more than `most_search` legs and probes would be needed
     EigenraySearch(const RaySea& sea, const std::vector<double>& depth_m, double least_amplitude);
 
-    /// The ray of an angle at each of some ranges (which grow).
+    /// The ray of an angle at each of some ranges (which grow), without delays.
     std::vector<Probe> trace(double launch_rad, const std::vector<double>& range_m);
     /// Calls found(depth's index, ray) for each ray between two neighbours that meets a depth, to
     /// 1e-7 m.
@@ -57,6 +57,7 @@ private:
     bool runs_one_way(const Probe& a, const Probe& b) const;
     bool may_hold_depth(const Probe& a, const Probe& b) const;
     Probe refine(const Bracket& bracket, double range_m);
+    double launch_for(const Probe& from, const Probe& to, double depth_m) const;
     Probe probe(double launch_rad, double range_m);
     void count_probe();
 

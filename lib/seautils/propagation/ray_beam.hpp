@@ -19,6 +19,9 @@ struct BeamState {
     std::uint32_t surface_bounces = 0, bottom_bounces = 0, caustics = 0;
 };
 
+/// The same of a ray whose delay is not wanted: its legs have none.
+struct UntimedState : BeamState {};
+
 /// Only what an intensity needs.
 struct EnergyState {
     double range_m = 0, length_m = 0, p = 1, q = 0;
