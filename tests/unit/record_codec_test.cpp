@@ -265,6 +265,12 @@ TEST(RecordCodec, APackingOfTheOtherFormIsOfNoMeaningAndPassedOn) {
     codec.convert(unframed(json, Form::ndjson), Form::ndjson, Form::delimited, back);
     EXPECT_EQ(unframed(back, Form::delimited), bytes);
 
+    const std::string alone("\x9a\x06\x01x", 4);  // of no kind that is known
+    json.clear();
+    codec.convert(alone, Form::delimited, Form::ndjson, json);
+    codec.read(unframed(json, Form::ndjson), Form::ndjson, r);
+    EXPECT_EQ(r.kind.index(), 0U);
+
     const std::string line = R"({"ack":{"src":2},"as_json":"x"})";
     std::string binary, again;
     codec.convert(line, Form::ndjson, Form::delimited, binary);

@@ -321,15 +321,19 @@ struct Codec::Impl {
         std::optional<std::string> packed;  ///< as it was written in the other form
     };
 
+    /// parse(), where a packing that means something in the other form only counts as not known.
+    bool parse_bare(std::string_view text, Form form) {
+        return parse(text, form) && !values[packing(other(form))].present;
+    }
+
     /// Fills `values` with the record itself.
     Opened open(std::string_view text, Form form) {
-        const bool all_known = parse(text, form);
-        if (!values[packing(form)].present)
-            return {all_known && !values[packing(other(form))].present, std::nullopt};
+        const bool all_known = parse_bare(text, form);
+        if (!values[packing(form)].present) return {all_known, std::nullopt};
         std::string packed(values.text(values[packing(form)]));
         if (form == Form::delimited && packed.find('\n') != std::string::npos)
             throw DataError("as_json: more than one line");
-        const bool inner_known = parse(packed, other(form));
+        const bool inner_known = parse_bare(packed, other(form));
         if (values[packing(other(form))].present)
             throw DataError("a record is packed in a packed one");
         return {inner_known, std::move(packed)};
