@@ -1,0 +1,149 @@
+#ifndef SEAUTILS_PROPAGATION_RAY_ENERGY_HPP
+#define SEAUTILS_PROPAGATION_RAY_ENERGY_HPP
+
+#include "seautils/propagation/ray_beam.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace seautils::propagation {
+
+/// What an intensity needs of a leg: a third of it.
+struct EnergyLeg {
+    double along_m = 0, spread = 0, kick = 0;
+    float length_m = 0, magnitude = 1, fade = 1;
+    float length_per_m = 0, spread_per_m = 0;  ///< over range
+    float depth_m = 0, cosine = 1, sine = 0, curvature = 0;
+    float speed_mps = 0, range_gradient = 0, depth_gradient = 0;
+};
+
+inline void pass(const EnergyLeg& leg, EnergyState& state) {
+    state.q += state.p * leg.spread;
+    state.p += leg.kick * state.q;
+    state.range_m += leg.along_m;
+    state.length_m += double{leg.length_m};
+    state.amplitude *= double{leg.magnitude};
+    state.fade *= double{leg.fade};
+}
+
+/// What whole cycles of a ray come to: sums and products, and what becomes of q and p.
+struct EnergyCycle {
+    double range_m = 0, length_m = 0, amplitude = 1, fade = 1;
+    double qq = 1, qp = 0, pq = 0, pp = 1;  ///< q' = qq·q + qp·p, p' = pq·q + pp·p
+
+    /// This one, then another.
+    EnergyCycle then(const EnergyCycle& next) const;
+    /// So many of them, one after another.
+    EnergyCycle times(std::uint64_t n) const;
+};
+
+/// What is known of the ray of one angle in one sea, traced as far as it was wanted.
+struct KeptRay {
+    /// A ray on its way, farther out than it was at any time before.
+    struct Mark {
+        RayTracer tracer;
+        EnergyState state;
+        std::uint64_t left;  ///< legs
+    };
+
+    std::optional<RayTracer> tracer;  ///< behind the last of the legs
+    EnergyState start;
+    bool whole = false;           ///< legs are a cycle
+    std::vector<EnergyLeg> legs;  ///< of a periodic sea, from the source on
+    EnergyCycle cycle;            ///< where whole
+    std::vector<Mark> marks;      ///< else, one in every mark_every_m
+
+    /// What it holds, in legs.
+    std::size_t size() const { return legs.size() + 3 * marks.size(); }
+    void clear() { *this = {}; }
+    KeptRay() = default;
+    KeptRay(KeptRay&&) = default;
+    KeptRay& operator=(KeptRay&& other) noexcept;
+};
+
+/// Legs of one ray after another, for intensities. Where the sea is periodic, a ray comes to the
+/// cycle in which the first range lies at once, else to the last mark before it: what is met from
+/// there on does not hang on what was known of the ray.
+class EnergyWalk {
+public:
+    /// @param legs          after which a ray ends
+    /// @param mark_every_m  0: no marks
+    EnergyWalk(const RaySea& sea, std::uint64_t legs, double mark_every_m)
+        : sea_(sea), legs_of_ray_(legs), mark_every_m_(mark_every_m) {}
+
+    /// Rays that ended for the number of their legs.
+    std::uint64_t cut() const { return cut_; }
+
+    /// Calls visit(leg, state) for legs from before `first_m` up to `stop_m` in range, with the
+    /// state at their beginning. The ray ends there, or when its amplitude is below
+    /// `least_amplitude`.
+    /// @param ray  of this angle and sea; or empty
+    template <class Visit>
+    void run(KeptRay& ray, double launch_rad, double first_m, double stop_m, double least_amplitude,
+             const Visit& visit) {
+        if (!ray.tracer) begin(ray, launch_rad);
+        Way way{ray.start, legs_of_ray_};
+        first_m_ = first_m;
+        stop_m_ = stop_m;
+        least_amplitude_ = least_amplitude;
+        if (sea_.periodic)
+            run_cycles(ray, way, visit);
+        else
+            run_along(ray, way, visit);
+    }
+
+private:
+    struct Way {
+        EnergyState state;
+        std::uint64_t left;
+    };
+
+    void begin(KeptRay& ray, double launch_rad) const;
+    bool next(RayTracer& tracer, EnergyLeg& out) const;
+    bool extend(KeptRay& ray) const;
+    bool jump(const KeptRay& ray, Way& way);
+    void mark(KeptRay& ray, const RayTracer& tracer, const Way& way) const;
+
+    /// @return whether the ray goes on
+    template <class Visit>
+    bool step(const EnergyLeg& leg, Way& way, const Visit& visit) {
+        visit(leg, std::as_const(way.state));
+        pass(leg, way.state);
+        if (--way.left == 0) ++cut_;
+        return way.state.amplitude >= least_amplitude_ && way.state.range_m < stop_m_ &&
+               way.left > 0;
+    }
+
+    template <class Visit>
+    void run_cycles(KeptRay& ray, Way& way, const Visit& visit) {
+        if (ray.whole && !jump(ray, way)) return;
+        for (std::size_t k = 0;; ++k) {
+            if (ray.whole && k == ray.legs.size()) k = 0;
+            const bool is_new = k == ray.legs.size();
+            if (is_new && !extend(ray)) return;
+            if (!step(ray.legs[k], way, visit)) return;
+            if (is_new && ray.whole && !jump(ray, way)) return;
+        }
+    }
+
+    template <class Visit>
+    void run_along(KeptRay& ray, Way& way, const Visit& visit) {
+        std::size_t known = ray.marks.size();
+        while (known > 0 && ray.marks[known - 1].state.range_m >= first_m_) --known;
+        RayTracer tracer = known > 0 ? ray.marks[known - 1].tracer : *ray.tracer;
+        if (known > 0) way = {ray.marks[known - 1].state, ray.marks[known - 1].left};
+        if (way.state.amplitude < least_amplitude_) return;
+        EnergyLeg leg;
+        while (next(tracer, leg) && step(leg, way, visit)) mark(ray, tracer, way);
+    }
+
+    const RaySea& sea_;
+    std::uint64_t legs_of_ray_, cut_ = 0;
+    double mark_every_m_, first_m_ = 0, stop_m_ = 0, least_amplitude_ = 0;
+};
+
+}  // namespace seautils::propagation
+
+#endif  // SEAUTILS_PROPAGATION_RAY_ENERGY_HPP
