@@ -79,7 +79,8 @@ void IntensitySum::add(const Launch& launch, KeptRay& ray) {
 }
 
 void IntensitySum::meet(const EnergyLeg& leg, const EnergyState& state, std::size_t column) {
-    const double range_m = columns_.range_m()[column], along_m = range_m - state.range_m;
+    const Columns::View& view = columns_.view(column);
+    const double along_m = view.range_m - state.range_m;
     const double q = std::abs(state.q + state.p * double{leg.spread_per_m} * along_m);
     const double path_m = double{leg.length_per_m} * along_m;
     const double faded = 2 * sea_.absorption_np_per_m * path_m;
@@ -100,7 +101,7 @@ void IntensitySum::meet(const EnergyLeg& leg, const EnergyState& state, std::siz
     spots_.least_m[k] =
         static_cast<float>(std::min(least_per_m_ * (state.length_m + path_m), least_at_most_m_));
     spots_.energy[k] =
-        static_cast<float>(energy_ * state.amplitude * state.amplitude * fade / range_m);
+        static_cast<float>(energy_ * state.amplitude * state.amplitude * fade * view.per_range);
     if (spots_.count == Spots::most) flush();
 }
 

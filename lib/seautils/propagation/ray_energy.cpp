@@ -24,25 +24,27 @@ EnergyLeg energy_leg(const Leg& leg) {
             .depth_gradient = single(leg.depth_gradient)};
 }
 
-EnergyCycle cycle_of(const std::vector<EnergyLeg>& legs) {
-    EnergyState a, b;
-    a.p = 0;
-    a.q = 1;
-    for (const EnergyLeg& leg : legs) {
-        pass(leg, a);
-        pass(leg, b);
-    }
-    return {.range_m = b.range_m,
-            .length_m = b.length_m,
-            .amplitude = b.amplitude,
-            .fade = b.fade,
-            .qq = a.q,
-            .qp = b.q,
-            .pq = a.p,
-            .pp = b.p};
+}  // namespace
+
+EnergyState EnergyCycle::after(const EnergyState& start) const {
+    return {.range_m = start.range_m + range_m,
+            .length_m = start.length_m + length_m,
+            .p = pq * start.q + pp * start.p,
+            .q = qq * start.q + qp * start.p,
+            .amplitude = start.amplitude * amplitude,
+            .fade = start.fade * fade};
 }
 
-}  // namespace
+void EnergyCycle::append(const EnergyLeg& leg) {
+    range_m += leg.along_m;
+    length_m += double{leg.length_m};
+    amplitude *= double{leg.magnitude};
+    fade *= double{leg.fade};
+    qq += pq * leg.spread;
+    qp += pp * leg.spread;
+    pq += leg.kick * qq;
+    pp += leg.kick * qp;
+}
 
 EnergyCycle EnergyCycle::then(const EnergyCycle& next) const {
     return {.range_m = range_m + next.range_m,
@@ -71,6 +73,7 @@ KeptRay& KeptRay::operator=(KeptRay&& other) noexcept {
     whole = other.whole;
     legs = std::move(other.legs);
     cycle = other.cycle;
+    so_far = std::move(other.so_far);
     marks = std::move(other.marks);
     return *this;
 }
@@ -101,32 +104,43 @@ bool EnergyWalk::extend(KeptRay& ray) const {
         ray.legs.pop_back();
         return false;
     }
+    ray.cycle.append(ray.legs.back());
+    if (ray.legs.size() % stride == 0) ray.so_far.push_back(ray.cycle);
     ray.whole = ray.tracer->at_start();
-    if (ray.whole) ray.cycle = cycle_of(ray.legs);
     return true;
 }
 
-/// Over the cycles that end before the first range.
+bool EnergyWalk::ends(const Way& way) {
+    if (way.left == 0) ++cut_;
+    return way.left == 0 || way.state.amplitude < least_amplitude_ || way.state.range_m >= stop_m_;
+}
+
+/// Over the cycles that end before the first range, and over legs that do.
 /// @return whether the ray goes on
 bool EnergyWalk::jump(const KeptRay& ray, Way& way) {
+    if (ray.legs.empty()) return true;
     const EnergyCycle& one = ray.cycle;
     const std::uint64_t size = ray.legs.size(), most = legs_of_ray_ / size;
-    const double wanted = std::floor(first_m_ / one.range_m);
+    const double wanted = ray.whole ? std::floor(first_m_ / one.range_m) : 0;
     auto n = wanted < static_cast<double>(most) ? static_cast<std::uint64_t>(wanted) : most;
     if (n > 0 && static_cast<double>(n) * one.range_m > first_m_) --n;
-    if (n == 0) return true;
-    const EnergyCycle all = one.times(n);
-    const EnergyState from = ray.start;
-    way.state.range_m = static_cast<double>(n) * one.range_m;
-    way.state.length_m = from.length_m + static_cast<double>(n) * one.length_m;
-    way.state.q = all.qq * from.q + all.qp * from.p;
-    way.state.p = all.pq * from.q + all.pp * from.p;
-    way.state.amplitude = from.amplitude * all.amplitude;
-    way.state.fade = from.fade * all.fade;
-    way.left = legs_of_ray_ - n * size;
-    if (way.state.amplitude < least_amplitude_) return false;
-    if (way.left == 0) ++cut_;
-    return way.left > 0;
+    if (way.state.range_m > 0 && n == 0) return true;  // it has come here leg by leg
+    EnergyCycle all = one.times(n);
+    all.range_m = static_cast<double>(n) * one.range_m;
+    way = {all.after(ray.start), legs_of_ray_ - n * size};
+    way.at_cycle = way.state;
+    if (way.left > 0) skip(ray, way);
+    return !ends(way);
+}
+
+/// Over the eights of legs of this cycle that end before the first range.
+void EnergyWalk::skip(const KeptRay& ray, Way& way) const {
+    std::size_t k = 0;
+    while (k < ray.so_far.size() && way.at_cycle.range_m + ray.so_far[k].range_m < first_m_) ++k;
+    if (k == 0 || k * stride >= std::min<std::uint64_t>(way.left, ray.legs.size())) return;
+    way.leg = k * stride;
+    way.left -= way.leg;
+    way.state = ray.so_far[k - 1].after(way.at_cycle);
 }
 
 void EnergyWalk::mark(KeptRay& ray, const RayTracer& tracer, const Way& way) const {

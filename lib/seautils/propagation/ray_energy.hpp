@@ -28,11 +28,15 @@ inline void pass(const EnergyLeg& leg, EnergyState& state) {
     state.fade *= double{leg.fade};
 }
 
-/// What whole cycles of a ray come to: sums and products, and what becomes of q and p.
+/// What legs of a ray, one after another, come to: sums and products, and what becomes of q and p.
 struct EnergyCycle {
     double range_m = 0, length_m = 0, amplitude = 1, fade = 1;
     double qq = 1, qp = 0, pq = 0, pp = 1;  ///< q' = qq·q + qp·p, p' = pq·q + pp·p
 
+    /// The state behind it.
+    EnergyState after(const EnergyState& start) const;
+    /// One leg more.
+    void append(const EnergyLeg& leg);
     /// This one, then another.
     EnergyCycle then(const EnergyCycle& next) const;
     /// So many of them, one after another.
@@ -50,13 +54,14 @@ struct KeptRay {
 
     std::optional<RayTracer> tracer;  ///< behind the last of the legs
     EnergyState start;
-    bool whole = false;           ///< legs are a cycle
-    std::vector<EnergyLeg> legs;  ///< of a periodic sea, from the source on
-    EnergyCycle cycle;            ///< where whole
-    std::vector<Mark> marks;      ///< else, one in every mark_every_m
+    bool whole = false;               ///< legs are a cycle
+    std::vector<EnergyLeg> legs;      ///< of a periodic sea, from the source on
+    EnergyCycle cycle;                ///< all of them
+    std::vector<EnergyCycle> so_far;  ///< those before each eighth leg
+    std::vector<Mark> marks;          ///< else, one in every mark_every_m
 
     /// What it holds, in legs.
-    std::size_t size() const { return legs.size() + 3 * marks.size(); }
+    std::size_t size() const { return legs.size() + so_far.size() + 3 * marks.size(); }
     void clear() { *this = {}; }
     KeptRay() = default;
     KeptRay(KeptRay&&) = default;
@@ -95,36 +100,41 @@ public:
     }
 
 private:
+    static constexpr std::size_t stride = 8;
     struct Way {
         EnergyState state;
         std::uint64_t left;
+        EnergyState at_cycle{};  ///< state where the cycle began
+        std::size_t leg = 0;     ///< of the cycle
     };
 
     void begin(KeptRay& ray, double launch_rad) const;
     bool next(RayTracer& tracer, EnergyLeg& out) const;
     bool extend(KeptRay& ray) const;
     bool jump(const KeptRay& ray, Way& way);
+    void skip(const KeptRay& ray, Way& way) const;
+    bool ends(const Way& way);
     void mark(KeptRay& ray, const RayTracer& tracer, const Way& way) const;
-
-    /// @return whether the ray goes on
-    template <class Visit>
-    bool step(const EnergyLeg& leg, Way& way, const Visit& visit) {
-        visit(leg, std::as_const(way.state));
-        pass(leg, way.state);
-        if (--way.left == 0) ++cut_;
-        return way.state.amplitude >= least_amplitude_ && way.state.range_m < stop_m_ &&
-               way.left > 0;
-    }
 
     template <class Visit>
     void run_cycles(KeptRay& ray, Way& way, const Visit& visit) {
-        if (ray.whole && !jump(ray, way)) return;
-        for (std::size_t k = 0;; ++k) {
-            if (ray.whole && k == ray.legs.size()) k = 0;
-            const bool is_new = k == ray.legs.size();
+        way.at_cycle = way.state;
+        if (!jump(ray, way)) return;
+        for (;;) {
+            const bool is_new = way.leg == ray.legs.size();
             if (is_new && !extend(ray)) return;
-            if (!step(ray.legs[k], way, visit)) return;
-            if (is_new && ray.whole && !jump(ray, way)) return;
+            const EnergyLeg& leg = ray.legs[way.leg++];
+            visit(leg, std::as_const(way.state));
+            pass(leg, way.state);
+            // as skip() would have it, to the bit
+            if (way.leg % stride == 0)
+                way.state = ray.so_far[way.leg / stride - 1].after(way.at_cycle);
+            --way.left;
+            if (ends(way)) return;
+            if (!ray.whole || way.leg < ray.legs.size()) continue;
+            way.at_cycle = way.state;
+            way.leg = 0;
+            if (is_new && !jump(ray, way)) return;
         }
     }
 
@@ -135,8 +145,12 @@ private:
         RayTracer tracer = known > 0 ? ray.marks[known - 1].tracer : *ray.tracer;
         if (known > 0) way = {ray.marks[known - 1].state, ray.marks[known - 1].left};
         if (way.state.amplitude < least_amplitude_) return;
-        EnergyLeg leg;
-        while (next(tracer, leg) && step(leg, way, visit)) mark(ray, tracer, way);
+        for (EnergyLeg leg; next(tracer, leg); mark(ray, tracer, way)) {
+            visit(leg, std::as_const(way.state));
+            pass(leg, way.state);
+            --way.left;
+            if (ends(way)) return;
+        }
     }
 
     const RaySea& sea_;
