@@ -86,14 +86,16 @@ private:
                 external_arrivals(toolbox::parse_program(task.program), there, task.options, run_);
     }
 
-    pg::Field field_of(const TlTask& task) const {
-        if (task.program.empty()) return compute_field(task.environment, task.engine, task.options);
+    pg::Field field_of(const TlTask& task) {
+        if (task.program.empty())
+            return fields_.compute(task.environment, task.engine, task.options);
         pg::check(task.environment);
         return external_field(toolbox::parse_program(task.program), task.environment, task.options,
                               run_);
     }
 
     toolbox::ExternalRun run_;
+    pg::FieldComputer fields_;
 };
 
 /// Results in the order of their tasks, whoever is ready first.

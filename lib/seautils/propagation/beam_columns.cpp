@@ -80,8 +80,8 @@ Columns::Columns(const RaySea& sea, const Receivers& receivers, const FieldOptio
         cells_ += depths(range_m_.size() - 1).stride();
     }
     for (std::size_t k = 0; k < range_m_.size(); ++k)
-        views_.push_back(
-            {depths(k).data(), depths(k).finder(), surface_m_[k], bottom_m_[k], offset_[k]});
+        views_.push_back({depths(k).data(), depths(k).finder(), surface_m_[k], bottom_m_[k],
+                          offset_[k], range_m_[k], 1 / range_m_[k]});
 }
 
 /// Cubic interpolation (Lagrange) between four depths.

@@ -38,7 +38,8 @@ public:
 
         std::size_t bin(float depth_m) const {
             const float place = (depth_m - top_m) * per_bin + 1.F;
-            return place > 0 ? static_cast<std::size_t>(std::min(place, last)) : 0;
+            return static_cast<std::uint32_t>(
+                static_cast<std::int32_t>(std::max(0.F, std::min(place, last))));
         }
         Run run(float least_m, float most_m) const {
             return {bins[bin(least_m)], bins[bin(most_m) + 1]};
@@ -76,6 +77,7 @@ public:
         Depths::Finder finder;
         float surface_m, bottom_m;
         std::size_t offset;
+        double range_m, per_range;  ///< and 1 over it
     };
     const View& view(std::size_t column) const { return views_[column]; }
     std::size_t cells() const { return cells_; }

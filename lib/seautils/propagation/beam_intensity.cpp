@@ -44,13 +44,17 @@ void add_kernel(const float* __restrict depth_m, float* __restrict out, std::siz
 }  // namespace
 
 IntensitySum::IntensitySum(const RaySea& sea, const Columns& columns, const BeamKind& kind)
-    : sea_(sea), columns_(columns), kind_(kind), walk_(sea, kind.legs), sum_(columns.cells()) {
+    : sea_(sea),
+      columns_(columns),
+      kind_(kind),
+      walk_(sea, kind.legs, kind.mark_every_m),
+      sum_(columns.cells()) {
     if (kind.beam == Beam::hat) return;
     least_at_most_m_ = least_width_m(sea, far_m);
     least_per_m_ = least_width_m(sea, 1e-9) * 1e9;
 }
 
-void IntensitySum::add(const Launch& launch) {
+void IntensitySum::add(const Launch& launch, KeptRay& ray) {
     const auto& ranges = columns_.range_m();
     if (ranges.empty() || launch.level == 0) return;
     double level = launch.level;
@@ -61,44 +65,43 @@ void IntensitySum::add(const Launch& launch) {
               sea_.source_speed_mps;
     width_per_q_ = launch.spacing_rad / sea_.source_speed_mps;
     std::size_t column = 0;
-    double next_m = ranges[0], last_m = 0;
-    walk_.run<EnergyState>(launch.angle_rad, ranges.back(), kind_.least_amplitude,
-                           [&](const Leg& leg, const EnergyState& state) {
-                               const double end_m = state.range_m + leg.whole.along_m;
-                               if (end_m < next_m && end_m >= last_m) return true;
-                               while (column < ranges.size() && ranges[column] <= end_m)
-                                   meet(leg, state, column++);
-                               while (column > 0 && ranges[column - 1] > end_m)
-                                   meet(leg, state, --column);
-                               next_m = column < ranges.size() ? ranges[column] : far_m;
-                               last_m = column > 0 ? ranges[column - 1] : -far_m;
-                               return true;
-                           });
-    flush();
+    double next_m = ranges[0], last_m = -far_m;
+    walk_.run(ray, launch.angle_rad, ranges[0], ranges.back(), kind_.least_amplitude,
+              [&](const EnergyLeg& leg, const EnergyState& state) {
+                  const double end_m = state.range_m + leg.along_m;
+                  if (end_m < next_m && end_m >= last_m) return;
+                  while (column < ranges.size() && ranges[column] <= end_m)
+                      meet(leg, state, column++);
+                  while (column > 0 && ranges[column - 1] > end_m) meet(leg, state, --column);
+                  next_m = column < ranges.size() ? ranges[column] : far_m;
+                  last_m = column > 0 ? ranges[column - 1] : -far_m;
+              });
 }
 
-void IntensitySum::meet(const Leg& leg, const EnergyState& state, std::size_t column) {
-    const double range_m = columns_.range_m()[column], along_m = range_m - state.range_m;
-    const double q = std::abs(state.q + state.p * leg.spread_per_m * along_m);
-    const double path_m = leg.length_per_m * along_m;
+void IntensitySum::meet(const EnergyLeg& leg, const EnergyState& state, std::size_t column) {
+    const Columns::View& view = columns_.view(column);
+    const double along_m = view.range_m - state.range_m;
+    const double q = std::abs(state.q + state.p * double{leg.spread_per_m} * along_m);
+    const double path_m = double{leg.length_per_m} * along_m;
     const double faded = 2 * sea_.absorption_np_per_m * path_m;
     const double fade =
         state.fade * (faded < 0.1 ? 1 - faded * (1 - faded * (0.5 - faded / 6)) : std::exp(-faded));
     if (!(q < 1e15)) return;
     const std::size_t k = spots_.count++;
+    const auto along = static_cast<float>(along_m);
     spots_.column[k] = static_cast<std::uint32_t>(column);
-    spots_.cosine[k] = static_cast<float>(std::abs(leg.cosine));
-    spots_.sine[k] = static_cast<float>(leg.sine);
-    spots_.turn[k] = static_cast<float>(leg.curvature * along_m);
-    spots_.along_m[k] = static_cast<float>(std::abs(along_m));
-    spots_.depth_m[k] = static_cast<float>(leg.depth_m);
-    spots_.speed_mps[k] = static_cast<float>(leg.speed_mps + leg.range_gradient * along_m);
-    spots_.gradient[k] = static_cast<float>(leg.depth_gradient);
+    spots_.cosine[k] = std::abs(leg.cosine);
+    spots_.sine[k] = leg.sine;
+    spots_.turn[k] = leg.curvature * along;
+    spots_.along_m[k] = std::abs(along);
+    spots_.depth_m[k] = leg.depth_m;
+    spots_.speed_mps[k] = leg.speed_mps + leg.range_gradient * along;
+    spots_.gradient[k] = leg.depth_gradient;
     spots_.width_m[k] = static_cast<float>(width_per_q_ * q);
     spots_.least_m[k] =
         static_cast<float>(std::min(least_per_m_ * (state.length_m + path_m), least_at_most_m_));
     spots_.energy[k] =
-        static_cast<float>(energy_ * state.amplitude * state.amplitude * fade / range_m);
+        static_cast<float>(energy_ * state.amplitude * state.amplitude * fade * view.per_range);
     if (spots_.count == Spots::most) flush();
 }
 

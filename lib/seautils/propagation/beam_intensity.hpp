@@ -3,7 +3,7 @@
 
 #include "seautils/propagation/beam_columns.hpp"
 #include "seautils/propagation/beam_kind.hpp"
-#include "seautils/propagation/ray_beam.hpp"
+#include "seautils/propagation/ray_energy.hpp"
 
 #include <array>
 #include <vector>
@@ -31,14 +31,17 @@ public:
     IntensitySum(const RaySea& sea, const Columns& columns, const BeamKind& kind);
 
     /// Traces the ray of an angle and adds its beam.
-    void add(const Launch& launch);
+    /// @param ray  what is known of the ray, and is known afterwards
+    void add(const Launch& launch, KeptRay& ray);
     void add(const IntensitySum& other);
+    /// After the last beam.
+    void finish() { flush(); }
     std::uint64_t cut() const { return cut_ + walk_.cut(); }  ///< rays ended for their legs
-    /// Intensity re 1 m, at depths of a column as Columns has them.
+    /// Intensity re 1 m, at depths of a column as Columns has them. After finish().
     const float* column(std::size_t column) const { return sum_.data() + columns_.offset(column); }
 
 private:
-    void meet(const Leg& leg, const EnergyState& state, std::size_t column);
+    void meet(const EnergyLeg& leg, const EnergyState& state, std::size_t column);
     void flush();
     void shape();
     void spread(std::size_t spot);
@@ -47,7 +50,7 @@ private:
     const RaySea& sea_;
     const Columns& columns_;
     BeamKind kind_;
-    BeamWalk walk_;
+    EnergyWalk walk_;
     std::uint64_t cut_ = 0;  // by others
     Spots spots_{};
     double energy_ = 0, width_per_q_ = 0;           // of the ray under way

@@ -13,6 +13,7 @@ struct BeamKind {
     Beam beam = Beam::gaussian;
     double least_amplitude = 0;
     std::uint64_t legs = 0;                           ///< after which a ray ends
+    double mark_every_m = 0;                          ///< of kept rays; 0: none
     double baffle_from_sine = 0, baffle_to_sine = 0;  ///< of elevation; equal: none
     /// A Gaussian beam's width over the distance between neighbours.
     double width_factor = 1;

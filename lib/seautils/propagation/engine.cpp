@@ -2,7 +2,6 @@
 
 #include "seautils/propagation/column.hpp"
 #include "seautils/propagation/modes.hpp"
-#include "seautils/propagation/rays.hpp"
 
 #include <fmt/format.h>
 
@@ -50,6 +49,11 @@ Choice choose_engine(const Environment& e, const FieldOptions& o) {
 }
 
 Field compute_field(const Environment& environment, Engine engine, const FieldOptions& options) {
+    return FieldComputer(0).compute(environment, engine, options);
+}
+
+Field FieldComputer::compute(const Environment& environment, Engine engine,
+                             const FieldOptions& options) {
     check(environment);
     Choice choice{engine, ""};
     if (engine == Engine::automatic) choice = choose_engine(environment, options);
@@ -59,7 +63,7 @@ Field compute_field(const Environment& environment, Engine engine, const FieldOp
     else if (choice.engine == Engine::wavenumber)
         field = wavenumber_field(environment, options);
     else
-        field = ray_field(environment, options);
+        field = rays_.field(environment, options);
     field.basis.engine = choice.engine;
     field.basis.why = choice.why;
     return field;

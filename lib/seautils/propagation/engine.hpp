@@ -1,7 +1,7 @@
 #ifndef SEAUTILS_PROPAGATION_ENGINE_HPP
 #define SEAUTILS_PROPAGATION_ENGINE_HPP
 
-#include "seautils/propagation/field.hpp"
+#include "seautils/propagation/rays.hpp"
 
 #include <string>
 #include <string_view>
@@ -24,6 +24,22 @@ Choice choose_engine(const Environment& environment, const FieldOptions& options
 /// Checks, chooses an engine where it is `automatic`, and computes. A basis says which, and why.
 /// @throws DataError  as check() and the engines do
 Field compute_field(const Environment& environment, Engine engine, const FieldOptions& options);
+
+/// Computes one field after another, each to the same bits as compute_field(), and sooner where only
+/// receivers have moved: rays are kept, see RayFields. What modes and wavenumbers need is not.
+/// No more than one thread at a time.
+class FieldComputer {
+public:
+    /// A shelf takes 20,000.
+    static constexpr std::size_t default_legs = 130'000;
+    /// @param most_legs  of rays, 80 bytes each
+    explicit FieldComputer(std::size_t most_legs = default_legs) : rays_(most_legs) {}
+
+    Field compute(const Environment& environment, Engine engine, const FieldOptions& options);
+
+private:
+    RayFields rays_;
+};
 
 }  // namespace seautils::propagation
 

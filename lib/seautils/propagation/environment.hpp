@@ -23,6 +23,8 @@ enum class SpeedInterpolation : std::uint8_t {
 struct SpeedPoint {
     double depth_m = 0;
     double sound_speed_mps = 0;
+
+    bool operator==(const SpeedPoint&) const = default;
 };
 
 /// Speeds on a rectangular mesh: linear in depth at each range, linear in range between (Q). Beyond its ranges that of
@@ -31,6 +33,8 @@ struct SpeedMesh {
     std::vector<double> range_m;          ///< grows; may begin below 0
     std::vector<double> depth_m;          ///< grows
     std::vector<double> sound_speed_mps;  ///< [depth][range]
+
+    bool operator==(const SpeedMesh&) const = default;
 };
 
 enum class AbsorptionModel : std::uint8_t {
@@ -49,6 +53,8 @@ struct Absorption {
     double ph = 8;
     double depth_m = 0;
     double db_per_km = 0;  ///< of `fixed`
+
+    bool operator==(const Absorption&) const = default;
 };
 
 struct WaterColumn {
@@ -58,6 +64,8 @@ struct WaterColumn {
     std::optional<SpeedMesh> mesh;  ///< in place of the profile
     double density_gcm3 = 1;
     Absorption absorption;
+
+    bool operator==(const WaterColumn&) const = default;
 };
 
 /// A reflection coefficient over grazing angle: linear in magnitude and in unwrapped phase; 0 beyond its ends.
@@ -65,6 +73,8 @@ struct ReflectionRow {
     double grazing_deg = 0;  ///< 0 to 90
     double magnitude = 0;    ///< 0 to 1
     double phase_deg = 0;    ///< as the Acoustics Toolbox has it: conjugate of exp(-iωt)
+
+    bool operator==(const ReflectionRow&) const = default;
 };
 
 enum class BoundaryKind : std::uint8_t {
@@ -84,6 +94,8 @@ struct Boundary {
     double shear_attenuation_db_per_wavelength = 0;
     double roughness_m = 0;            ///< rms; 0: smooth. Coherent (Kirchhoff) loss
     std::vector<ReflectionRow> table;  ///< of `table`; grows in angle
+
+    bool operator==(const Boundary&) const = default;
 };
 
 /// The depth of a boundary over range: straight between its points, or curved; flat beyond its ends.
@@ -91,30 +103,40 @@ struct Line {
     bool curved = false;
     std::vector<double> range_m;  ///< grows; may begin below 0
     std::vector<double> depth_m;  ///< as many
+
+    bool operator==(const Line&) const = default;
 };
 
 /// Amplitude pattern of a source over launch angle; linear in amplitude between; constant beyond its ends.
 struct PatternPoint {
     double angle_deg = 0;  ///< -180 to 180, positive down
     double level_db = 0;
+
+    bool operator==(const PatternPoint&) const = default;
 };
 
 struct Source {
     double depth_m = 0;
     std::vector<PatternPoint> pattern;  ///< empty: omnidirectional
     bool line = false;                  ///< a line across the plane, in place of a point
+
+    bool operator==(const Source&) const = default;
 };
 
 /// A grid: each depth at each range.
 struct Receivers {
     std::vector<double> depth_m;
     std::vector<double> range_m;
+
+    bool operator==(const Receivers&) const = default;
 };
 
 /// Launch angles; equally spaced.
 struct Fan {
     double least_deg = -80, most_deg = 80;
     std::uint32_t beams = 0;  ///< 0: the engine chooses
+
+    bool operator==(const Fan&) const = default;
 };
 
 struct Environment {

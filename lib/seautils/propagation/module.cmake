@@ -19,6 +19,7 @@ seautils_module(NAME propagation
     noise.cpp
     ray_arrivals.cpp
     ray_beam.cpp
+    ray_energy.cpp
     ray_fan.cpp
     ray_layers.cpp
     ray_paths.cpp
@@ -32,5 +33,6 @@ seautils_module(NAME propagation
   DEPENDS core LINK fmt::fmt $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
 
 # Square roots and comparisons become vectors only where nobody asks for errno or traps.
-set_source_files_properties(seautils/propagation/beam_intensity.cpp seautils/propagation/ray_tracer.cpp
+set_source_files_properties(seautils/propagation/beam_intensity.cpp
+  seautils/propagation/ray_tracer.cpp
   PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")

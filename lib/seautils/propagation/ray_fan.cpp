@@ -30,10 +30,6 @@ constexpr double fringe_share = 0.06, fringe_folds = 0.75;
 /// Where the source is weak, beams stand up to this many times wider.
 constexpr double weak_most = 2;
 
-double last_range_m(const Environment& environment) {
-    return std::max(environment.receivers.range_m.back(), 1e-3);
-}
-
 double least_depth_m(const RaySea& sea, double last_m) {
     const double above_m = sea.surface.depth_at(0);
     const double half_way_m = sea.bottom.depth_at(0.5 * last_m) - above_m;
@@ -42,7 +38,7 @@ double least_depth_m(const RaySea& sea, double last_m) {
 
 /// As geometry wants it.
 double folds_rad(const Environment& environment, const RaySea& sea) {
-    const double last_m = last_range_m(environment);
+    const double last_m = reach_m(environment);
     const double depth_m = least_depth_m(sea, last_m);
     const double folds = widest_rad * std::pow(std::max(depth_m, 1.) / 100, depth_power);
     return std::min(folds, std::max(depth_share * depth_m / last_m, narrowest_rad));
@@ -50,7 +46,7 @@ double folds_rad(const Environment& environment, const RaySea& sea) {
 
 double flat_spacing_rad(const Environment& environment, const RaySea& sea,
                         const FieldOptions& options) {
-    const double last_m = last_range_m(environment);
+    const double last_m = reach_m(environment);
     const double wavelength_m = sea.source_speed_mps / sea.frequency_hz;
     const bool hat = options.beam == Beam::hat;
     const double waves = hat ? 0 : least_widths * pi * wavelength_m / last_m;
@@ -144,6 +140,11 @@ double level_at(const std::vector<PatternPoint>& pattern, double angle_deg) {
     const auto& below = *(above - 1);
     const double part = (angle_deg - below.angle_deg) / (above->angle_deg - below.angle_deg);
     return amplitude(below) + (amplitude(*above) - amplitude(below)) * part;
+}
+
+double fan_spacing_rad(const Environment& environment, const RaySea& sea,
+                       const FieldOptions& options) {
+    return environment.fan.beams > 0 ? 0 : flat_spacing_rad(environment, sea, options);
 }
 
 std::vector<Launch> make_fan(const Environment& environment, const RaySea& sea,

@@ -19,6 +19,11 @@ double level_at(const std::vector<PatternPoint>& pattern, double angle_deg);
 std::vector<Launch> make_fan(const Environment& environment, const RaySea& sea,
                              const FieldOptions& options);
 
+/// All that fan has of the receivers and of the sea: of flat rays. 0 where the environment gives the
+/// number of beams.
+double fan_spacing_rad(const Environment& environment, const RaySea& sea,
+                       const FieldOptions& options);
+
 /// A fan whose neighbours bracket the rays that meet receivers.
 std::vector<Launch> make_bracketing_fan(const Environment& environment, const RaySea& sea);
 

@@ -188,13 +188,20 @@ double Wall::depth_at(double range_m) const {
 
 std::size_t RaySea::strip_at(double range_m) const { return piece_at(strip_edge_m, range_m); }
 
+double reach_m(const Environment& environment) {
+    const double last_m = environment.receivers.range_m.back();
+    for (const double decade : {1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7})
+        for (const double part : {1., 1.2, 1.5, 2., 2.5, 3., 4., 5., 6., 8.})
+            if (last_m <= part * decade) return part * decade;
+    return last_m;
+}
+
 RaySea make_ray_sea(const Environment& environment, std::vector<std::string>& remarks) {
     RaySea sea;
     sea.surface = wall_of(environment.surface, environment.surface_line, 0);
     sea.bottom = wall_of(environment.bottom, environment.bottom_line, environment.bottom_depth_m);
     const Table table = table_of(environment.water, remarks);
-    const auto& ranges = environment.receivers.range_m;
-    sea.strip_edge_m = strip_edges(table, ranges.empty() ? 0 : ranges.back());
+    sea.strip_edge_m = strip_edges(table, reach_m(environment));
     sea.layer_edge_m = layer_edges(table, environment, sea);
     fill_cells(sea, table);
     sea.periodic = sea.surface.level && sea.bottom.level && sea.strip_edge_m.size() == 2;

@@ -61,7 +61,11 @@ struct RaySea {
     }
 };
 
-/// @param environment  as check() lets it pass
+/// The last range, rounded up to 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 of its decade, 1 mm at least:
+/// what rays are chosen for, so that receivers may move a little under the same rays.
+double reach_m(const Environment& environment);
+
+/// @param environment  as check() lets it pass; of its receivers, reach_m() counts
 /// @param remarks      takes what was assumed
 RaySea make_ray_sea(const Environment& environment, std::vector<std::string>& remarks);
 

@@ -45,22 +45,25 @@ void for_each_block(std::size_t blocks, std::uint32_t threads, const Work& work)
 }
 
 /// All beams, added in blocks.
+/// @param add  adds beam k to sums
+template <class Sums, class Add>
+Sums add_beams(std::vector<Sums> sums, std::size_t beams, std::uint32_t threads, const Add& add) {
+    const std::size_t blocks = sums.size();
+    for_each_block(blocks, threads, [&](std::size_t block) {
+        for (std::size_t k = block; k < beams; k += blocks) add(sums[block], k);
+        sums[block].finish();
+    });
+    for (std::size_t k = 1; k < blocks; ++k) sums[0].add(sums[k]);
+    return std::move(sums[0]);
+}
+
 template <class Sums>
-Sums add_beams(const RaySea& sea, const Columns& columns, const BeamKind& kind,
-               const std::vector<Launch>& fan, std::uint32_t threads,
-               std::vector<std::string>& remarks) {
+std::vector<Sums> empty_sums(const RaySea& sea, const Columns& columns, const BeamKind& kind) {
     const std::size_t blocks = blocks_of(columns.cells());
     std::vector<Sums> sums;
     sums.reserve(blocks);
     for (std::size_t k = 0; k < blocks; ++k) sums.emplace_back(sea, columns, kind);
-    for_each_block(blocks, threads, [&](std::size_t block) {
-        for (std::size_t k = block; k < fan.size(); k += blocks) sums[block].add(fan[k]);
-    });
-    for (std::size_t k = 1; k < blocks; ++k) sums[0].add(sums[k]);
-    if (sums[0].cut() > 0)
-        remarks.push_back(
-            fmt::format("{} of {} rays ended after {} legs", sums[0].cut(), fan.size(), kind.legs));
-    return std::move(sums[0]);
+    return sums;
 }
 
 /// A field with no values yet.
@@ -107,25 +110,116 @@ void fill(Field& field, const Environment& environment, const Columns& columns,
         });
 }
 
+/// Receivers and title aside.
+bool is_same_sea(const Environment& a, const Environment& b) {
+    return a.frequency_hz == b.frequency_hz && a.source == b.source && a.water == b.water &&
+           a.surface == b.surface && a.surface_line == b.surface_line && a.bottom == b.bottom &&
+           a.bottom_depth_m == b.bottom_depth_m && a.bottom_line == b.bottom_line && a.fan == b.fan;
+}
+
+/// Seas that are kept; profiles of a few instances come by turns.
+constexpr std::size_t most_seas = 8;
+/// What a ray without a leg takes, in legs.
+constexpr std::size_t legs_of_empty_ray = 5;
+constexpr double marks_of_ray = 24;
+
 }  // namespace
+
+/// A sea and a fan, and what is known of the fan's rays.
+struct RayFields::Kept {
+    Environment environment;  ///< without receivers
+    Sum sum;
+    Beam beam;
+    double reach_m;
+    std::vector<std::string> remarks;
+    RaySea sea;
+    double spacing_rad;
+    std::vector<Launch> fan;
+    std::vector<KeptRay> rays;  ///< as many, or none
+
+    bool is_of(const Environment& e, const FieldOptions& o) const {
+        return sum == o.sum && beam == o.beam && is_same_sea(environment, e) &&
+               (sea.strip_edge_m.size() == 2 || reach_m == propagation::reach_m(e)) &&
+               spacing_rad == fan_spacing_rad(e, sea, o);
+    }
+    std::size_t legs() const {
+        std::size_t all = legs_of_empty_ray * rays.size();
+        for (const KeptRay& ray : rays) all += ray.size();
+        return all;
+    }
+};
+
+RayFields::RayFields(std::size_t legs) : most_legs_(legs) {}
+RayFields::~RayFields() = default;
+
+/// What is known of the sea, found or made, and put first.
+RayFields::Kept& RayFields::kept(const Environment& environment, const FieldOptions& options) {
+    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const auto& kept) {
+        return kept->is_of(environment, options);
+    });
+    if (found != kept_.end()) {
+        std::rotate(kept_.begin(), found, found + 1);
+        return *kept_.front();
+    }
+    auto now = std::make_unique<Kept>(
+        Kept{environment, options.sum, options.beam, reach_m(environment), {}, {}, 0, {}, {}});
+    now->environment.receivers = {};
+    now->sea = make_ray_sea(environment, now->remarks);
+    now->spacing_rad = fan_spacing_rad(environment, now->sea, options);
+    now->fan = make_fan(environment, now->sea, options);
+    const bool is_kept =
+        options.sum != Sum::coherent && 2 * legs_of_empty_ray * now->fan.size() <= most_legs_;
+    if (is_kept) now->rays.resize(now->fan.size());
+    kept_.insert(kept_.begin(), std::move(now));
+    return *kept_.front();
+}
+
+/// What was used least lately is more than can be kept, beside the first.
+void RayFields::drop() {
+    std::size_t seas = 1, legs = most_legs_ / 2;
+    while (seas < std::min(kept_.size(), most_seas) && (legs += kept_[seas]->legs()) <= most_legs_)
+        ++seas;
+    kept_.resize(seas);
+}
+
+Field RayFields::field(const Environment& environment, const FieldOptions& options) {
+    Kept& known = kept(environment, options);
+    const RaySea& sea = known.sea;
+    const std::size_t beams = known.fan.size();
+    Field field = empty_field(environment, options);
+    field.basis.remarks = known.remarks;
+    field.basis.beams = beams;
+    const Columns columns(sea, environment.receivers, options);
+    BeamKind kind = beam_kind(environment, options);
+    kind.legs = legs_of_ray(beams);
+    const auto fill_from = [&](const auto& sums) {
+        if (sums.cut() > 0)
+            field.basis.remarks.push_back(
+                fmt::format("{} of {} rays ended after {} legs", sums.cut(), beams, kind.legs));
+        fill(field, environment, columns, sums);
+    };
+    drop();
+    if (options.sum == Sum::coherent) {
+        const auto add = [&](PressureSum& sums, std::size_t k) { sums.add(known.fan[k]); };
+        fill_from(
+            add_beams(empty_sums<PressureSum>(sea, columns, kind), beams, options.threads, add));
+        return field;
+    }
+    if (!known.rays.empty()) kind.mark_every_m = reach_m(environment) / marks_of_ray;
+    const std::size_t most_of_ray = known.rays.empty() ? 0 : most_legs_ / beams - legs_of_empty_ray;
+    const auto add = [&](IntensitySum& sums, std::size_t k) {
+        KeptRay unknown;
+        KeptRay& ray = known.rays.empty() ? unknown : known.rays[k];
+        sums.add(known.fan[k], ray);
+        if (ray.size() > most_of_ray) ray.clear();
+    };
+    fill_from(add_beams(empty_sums<IntensitySum>(sea, columns, kind), beams, options.threads, add));
+    return field;
+}
 
 Field ray_field(const Environment& environment, const FieldOptions& options) {
     check(environment);
-    Field field = empty_field(environment, options);
-    const RaySea sea = make_ray_sea(environment, field.basis.remarks);
-    const Columns columns(sea, environment.receivers, options);
-    const auto fan = make_fan(environment, sea, options);
-    BeamKind kind = beam_kind(environment, options);
-    kind.legs = legs_of_ray(fan.size());
-    field.basis.beams = fan.size();
-    const auto add = [&]<class Sums>() {
-        return add_beams<Sums>(sea, columns, kind, fan, options.threads, field.basis.remarks);
-    };
-    if (options.sum == Sum::coherent)
-        fill(field, environment, columns, add.template operator()<PressureSum>());
-    else
-        fill(field, environment, columns, add.template operator()<IntensitySum>());
-    return field;
+    return RayFields(0).field(environment, options);
 }
 
 }  // namespace seautils::propagation

@@ -4,6 +4,7 @@
 #include "seautils/propagation/field.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace seautils::propagation {
@@ -15,6 +16,32 @@ namespace seautils::propagation {
 /// rays end at range 0. The same bits whatever the number of threads.
 /// @throws DataError  check() does
 Field ray_field(const Environment& environment, const FieldOptions& options);
+
+/// The same fields, one after another, to the same bits, whatever was computed before. Kept of the
+/// last seas is what does not hang on the receivers: the sea in layers, the fan, and of each ray
+/// the legs of its cycle, or where the sea depends on range where it passed the marks. Then rays
+/// begin just before the first receiver. A sea is known again when all numbers of it are the same.
+/// Rays of coherent sums are traced from the source.
+class RayFields {
+public:
+    /// @param most_legs  so many are kept, at 80 bytes; 0: nothing is
+    explicit RayFields(std::size_t most_legs);
+    ~RayFields();
+    RayFields(const RayFields&) = delete;
+    RayFields& operator=(const RayFields&) = delete;
+
+    /// As ray_field().
+    /// @param environment  check()ed
+    Field field(const Environment& environment, const FieldOptions& options);
+
+private:
+    struct Kept;
+    Kept& kept(const Environment& environment, const FieldOptions& options);
+    void drop();
+
+    std::size_t most_legs_;
+    std::vector<std::unique_ptr<Kept>> kept_;  ///< the last used is first
+};
 
 /// All paths from the source to each receiver, depth by depth, each refined to its own launch
 /// angle: to 1e-7 rad, and its delay to 1e-9 s. Pairs of rays that lie closer than 4
