@@ -214,6 +214,31 @@ END
     assert_equal "$stderr" "depth-plan: wrong.csv:2: depth_m '0' does not grow"
 }
 
+@test "depth-plan snr: profiles are averaged; where they differ nothing sharp is left" {
+    # least loss at 1000 m by one profile, at 1500 m by the other, which knows a little less of it
+    awk 'BEGIN { print "z,100,5000"; for (z = 0; z <= 3000; z += 100) { l = 90 - 20 * exp(-((z - 1000) / 200) ^ 2); print z "," l "," l } }' > first.csv
+    awk 'BEGIN { print "z,100,5000"; for (z = 0; z <= 3000; z += 100) { l = 90 - 18 * exp(-((z - 1500) / 200) ^ 2); print z "," l "," l } }' > second.csv
+    here='{"depth_m":1000,"speed_mps":2,"range_m":1000,"range_rate_mps":0}'
+    plan=(depth-plan snr --smoothing 0 --loss first.csv)
+    assert_equal "$("${plan[@]}" <<< "$here" | field '[.depth_m, .tl_db, .utility]')" '[1000,70,1]'
+    run_quiet "${plan[@]}" --uncertainty 1000 --loss second.csv <<< "$here"
+    # -10 lg((10^-7 + 10^-8.997) / 2), whichever file is the last
+    assert_equal "$(field '[.depth_m, .tl_db]' <<< "$output")" '[1000,72.97]'
+    sharp=$(field '.curve_utility | max - min' <<< "$output")
+    flat=$("${plan[@]}" --loss second.csv <<< "$here" | field '.curve_utility | max - min')
+    [[ $(awk "BEGIN { print ($flat < $sharp / 3 && $sharp > 0.99 && $flat > 0.01) }") == 1 ]] || fail "$sharp $flat"
+    # the model is asked for each of the last profiles
+    profile='{"depth_m":[0,100],"sound_speed_mps":[1500,1490]}'
+    run_quiet depth-plan snr --model ./model --instances 2 <<< "$profile"$'\n'"${profile/1490/1510}"$'\n'"$state"
+    assert_equal "$(jq -c '.profile.sound_speed_mps[1]' asked | xargs)" '1490 1510'
+    # an answer in the input takes the place of as many as there are
+    answer='{"depth_m":[10,50],"range_m":[100,300],"tl_db":[90,90,60,60]}'
+    run_quiet depth-plan snr --loss first.csv --loss second.csv <<< "$answer"$'\n'"$state"
+    assert_equal "$(field '[.curve_depth_m, .depth_m]' <<< "$output")" '[[10,50],50]'
+    run -1 --separate-stderr depth-plan snr --loss first.csv --loss losses.csv <<< "$state"
+    assert_equal "$stderr" 'depth-plan: <stdin>:1: the fields of the profiles have different depths'
+}
+
 # --- a model as a partner ---
 
 @test "depth-plan: a model is asked for what is needed, when it is" {

@@ -170,6 +170,9 @@ struct SnrToolOptions {
                    {0.1, 90, " degrees"}, "DEGREES");
         add_number(app, "--smoothing", snr.smoothing_m, "Low-passes from the surface down (50)",
                    {0, 1e4, " m"}, "METRES");
+        add_number(app, "--uncertainty", snr.uncertainty_db,
+                   "Profiles that differ so much halve what is known (3)", {0.01, 1000, " dB"},
+                   "DB");
         add_number(app, "--signal-weight", snr.signal_weight, "Of loss (1)", {0, 1000, ""}, "W");
         add_number(app, "--noise-weight", snr.noise_weight, "Of noise (1)", {0, 1000, ""}, "W");
         add_number(app, "--gain-weight", snr.gain_weight, "Of array gain (1)", {0, 1000, ""}, "W");

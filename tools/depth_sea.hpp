@@ -128,7 +128,7 @@ private:
 
     void keep(plan::LossField field) {
         fields_.push_back(std::move(field));
-        if (fields_.size() > options_.instances) fields_.erase(fields_.begin());
+        while (fields_.size() > options_.instances) fields_.erase(fields_.begin());
         stale_ = false;
     }
 

@@ -206,8 +206,7 @@ public:
                 const std::vector<plan::Objective>& others) const {
         const plan::Limits& limits = options_.common.limits;
         const plan::SnrForecast forecast = forecast_snr(
-            fields.back(), d.range_m, d.range_rate_mps,
-            [this](double z) { return options_.noise_db(z); },
+            fields, d.range_m, d.range_rate_mps, [this](double z) { return options_.noise_db(z); },
             [this](double z) { return options_.gain_db(z); }, options_.snr);
         const plan::SnrDecision s =
             plan::decide(forecast, limits, situation, speed_mps, options_.snr, others);
@@ -228,7 +227,7 @@ public:
                                                      : DepthRule::steepest;
         d.pitch_deg = s.pitch_deg;
         d.ahead_s = forecast.time_s[s.time];
-        d.loss_db = loss_at_db(fields.back(), *s.depth_m, forecast.range_m[s.time]);
+        d.loss_db = mean_loss_at_db(fields, *s.depth_m, forecast.range_m[s.time]);
         d.reason = with_limits(why(s, forecast), s.choice);
     }
 

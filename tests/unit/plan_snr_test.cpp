@@ -3,6 +3,7 @@
 
 #include "plan_grids.hpp"
 
+#include "seautils/core/error.hpp"
 #include "seautils/plan/motion.hpp"
 #include "seautils/plan/noise.hpp"
 
@@ -10,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <vector>
 
 namespace seautils::plan {
 namespace {
@@ -66,6 +69,12 @@ LossField ridge() {
         for (const double r : f.range_m)
             f.loss_db.push_back(static_cast<float>(80 + std::abs(z - 1000 - r / 10) / 100));
     return f;
+}
+
+SnrForecast forecast_snr(const LossField& field, double range_m, double range_rate_mps,
+                         const std::function<double(double)>& noise_db,
+                         const std::function<double(double)>& gain_db, const SnrOptions& options) {
+    return plan::forecast_snr({&field, 1}, range_m, range_rate_mps, noise_db, gain_db, options);
 }
 
 SnrOptions plain() { return {.smoothing_m = 0}; }
@@ -179,27 +188,155 @@ TEST(Decide, WeighsOtherObjectives) {
     EXPECT_EQ(decide(f, {}, {.depth_m = 2000, .water_depth_m = {}}, 1.5, o).depth_m, 2000);
 }
 
-/// Case p7: how far two sections from the surface down move the best depth, range by range. The specification found 70 to
-/// 190 m; the grid's step is 60 m.
+// --- several profiles ---
+
+/// The ridge as another profile has it, so much deeper.
+LossField deeper_ridge(double by_m) {
+    LossField f = ridge();
+    for (std::size_t k = 0; k < f.depth_m.size(); ++k)
+        for (std::size_t i = 0; i < f.range_m.size(); ++i)
+            f.loss_db[k * f.range_m.size() + i] = static_cast<float>(
+                80 + std::abs(f.depth_m[k] - 1000 - by_m - f.range_m[i] / 10) / 100);
+    return f;
+}
+
+SnrForecast forecast_of(const std::vector<LossField>& fields, const SnrOptions& o) {
+    return plan::forecast_snr(fields, 10000, 5, nothing, nothing, o);
+}
+
+TEST(Instances, AreAveragedInIntensity) {
+    const SnrForecast f = forecast_of({ridge(), deeper_ridge(1000)}, plain());
+    // 2000 m at 10 km: 80 dB by the one, 90 by the other; 2500 m: 85 by both
+    EXPECT_NEAR(f.snr_db[0][40], 10 * std::log10((1e-8 + 1e-9) / 2), 1e-5);
+    EXPECT_NEAR(f.deviation_db[0][40], std::sqrt(50.0), 1e-5);
+    EXPECT_NEAR(f.snr_db[0][50], -85, 1e-5);
+    EXPECT_NEAR(f.deviation_db[0][50], 0, 1e-5);
+    LossField other = ridge();
+    other.depth_m.back() += 1;
+    EXPECT_THROW(forecast_of({ridge(), other}, plain()), DataError);
+}
+
+TEST(Instances, ThatAgreeChangeNothing) {
+    const SnrOptions o;
+    const SnrForecast one = forecast_of({ridge()}, o),
+                      three = forecast_of({ridge(), ridge(), ridge()}, o);
+    const std::vector<DepthBand> all{{0, 5000}};
+    for (std::size_t k = 0; k < one.time_s.size(); ++k) {
+        const Objective a = one.objective(k, all), b = three.objective(k, all);
+        for (std::size_t z = 0; z < a.utility.size(); ++z)
+            ASSERT_NEAR(a.utility[z], b.utility[z], 1e-9);
+    }
+}
+
+TEST(Instances, TheMoreTheyDifferTheFlatterIsUtility) {
+    const auto contrast = [](double by_m) {
+        const Objective o = forecast_of({deeper_ridge(-by_m), deeper_ridge(by_m)}, plain())
+                                .objective(0, {{0, 5000}});
+        return *std::max_element(o.utility.begin(), o.utility.end()) -
+               *std::min_element(o.utility.begin(), o.utility.end());
+    };
+    double last = 1.0001;
+    for (const double by_m : {0.0, 200.0, 500.0, 1000.0}) {
+        EXPECT_LT(contrast(by_m), last) << by_m;
+        last = contrast(by_m);
+    }
+    EXPECT_LT(last, 0.4);
+    EXPECT_GT(last, 0.001);
+}
+
+TEST(Instances, DepthsThatAreNotAllowedDoNotMakeOthersBetter) {
+    // only what is shallower than 200 m is allowed, and there utility grows with depth; below it goes up to 8
+    const std::vector<DepthBand> allowed{{0, 200}};
+    const Objective o =
+        forecast_of({deeper_ridge(-300), deeper_ridge(300)}, plain()).objective(0, allowed);
+    for (std::size_t k = 0; o.depth_m[k] <= 200; ++k) EXPECT_LE(o.utility[k], 1 + 1e-9);
+}
+
+TEST(Instances, AProfileThatDoesNotReachDoesNotCount) {
+    LossField near = deeper_ridge(1000);
+    near.range_m.resize(10);
+    near.loss_db.assign(near.depth_m.size() * 10, 70.0F);
+    const SnrForecast f = forecast_of({ridge(), near}, plain());
+    EXPECT_EQ(f.time_s.size(), 51U) << "as far as the farther of them goes";
+    EXPECT_NEAR(f.snr_db[0][40], -80, 1e-5);
+    EXPECT_EQ(f.deviation_db[0][40], 0);
+}
+
+// --- the low-pass ---
+
+/// S(z) = -80 dB down to 1000 m, -60 dB from 1100 m on, straight between, at some step.
+SnrForecast step_of(double step_m, double length_m) {
+    LossField f;
+    for (double z = 0; z <= 2000; z += step_m) {
+        f.depth_m.push_back(z);
+        f.loss_db.push_back(static_cast<float>(80 - std::clamp((z - 1000) / 100, 0.0, 1.0) * 20));
+    }
+    f.range_m = {1000};
+    return forecast_snr(f, 1000, 0, nothing, nothing, {.horizon_s = 0, .smoothing_m = length_m});
+}
+
+TEST(ForecastLowPass, IsTheTwoSectionsOfTheSpecificationInDecibels) {
+    // y += dz / (dz + 50) (x - y), twice, in steps of 0.1 m
+    const SnrForecast f = step_of(50, 50);
+    double first = -80, second = -80;
+    std::size_t k = 0;
+    for (int n = 0; n <= 20000; ++n) {
+        const double z = n * 0.1;
+        const double x = -80 + std::clamp((z - 1000) / 100, 0.0, 1.0) * 20;
+        first += 0.1 / 50.1 * (x - first);
+        second += 0.1 / 50.1 * (first - second);
+        if (n % 500 != 0) continue;
+        EXPECT_NEAR(f.snr_db[0][k], second, 0.05) << z;
+        ++k;
+    }
+    EXPECT_EQ(k, f.depth_m.size());
+    EXPECT_NEAR(f.snr_db[0].back(), -60, 1e-3) << "what does not change passes";
+}
+
+TEST(ForecastLowPass, DoesNotDependOnTheGrid) {
+    const SnrForecast coarse = step_of(100, 50), fine = step_of(5, 50);
+    for (std::size_t k = 0; k < coarse.depth_m.size(); ++k)
+        EXPECT_NEAR(coarse.snr_db[0][k], fine.snr_db[0][20 * k], 1e-5);
+}
+
+TEST(ForecastLowPass, DepthsThatNearlyCoincideDoNoHarm) {
+    LossField f;
+    f.depth_m = {0, 1e-300, 2e-300, 10, 20};
+    f.range_m = {1000};
+    f.loss_db = {80, 90, 70, 75, no_value};
+    const SnrForecast s =
+        forecast_snr(f, 1000, 0, nothing, nothing, {.horizon_s = 0, .smoothing_m = 50});
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(std::abs(s.snr_db[0][k] + 80) < 1) << k;
+}
+
+/// Where a column is largest: between depths by a parabola through the three about it.
+double best_depth_m(const SnrForecast& f) {
+    const auto& s = f.snr_db[0];
+    const auto k = static_cast<std::size_t>(std::max_element(s.begin(), s.end()) - s.begin());
+    if (k == 0 || k + 1 == s.size()) return f.depth_m[k];
+    const double bend = s[k - 1] - 2 * s[k] + s[k + 1];
+    return f.depth_m[k] + (s[k - 1] - s[k + 1]) / 2 / bend * (f.depth_m[k + 1] - f.depth_m[k]);
+}
+
+/// Case p7: how far two sections from the surface down move the best depth, range by range. The specification has 70 to
+/// 190 m; the grid's step is 60 m, half of which it may be off.
 TEST(SnrCases, TheLowPassMovesDownwards) {
     const auto grid = case_grid("p7-pacific-300", "bellhop_gauss_inc");
     if (!grid) GTEST_SKIP() << "the shared cases are not there";
     double sum = 0, n = 0;
-    for (double r = 15000; r <= 45000; r += 1000) {
+    for (double r = 15000; r <= 45000; r += 300) {
         const auto best = [&](double length_m) {
-            const SnrForecast f = forecast_snr(*grid, r, 0, nothing, nothing,
-                                               {.horizon_s = 0, .smoothing_m = length_m});
-            const auto& column = f.snr_db[0];
-            const auto most = std::max_element(column.begin(), column.end());
-            return f.depth_m[static_cast<std::size_t>(most - column.begin())];
+            return best_depth_m(forecast_snr(*grid, r, 0, nothing, nothing,
+                                             {.horizon_s = 0, .smoothing_m = length_m}));
         };
         const double shift = best(50) - best(0);
-        EXPECT_GE(shift, 60) << r;
-        EXPECT_LE(shift, 180) << r;
+        EXPECT_GE(shift, 70 - 30) << r;
+        EXPECT_LE(shift, 190 + 30) << r;
         sum += shift;
         ++n;
     }
-    EXPECT_NEAR(sum / n, 100, 20) << "what the thesis asks for";
+    EXPECT_GE(sum / n, 70);
+    EXPECT_LE(sum / n, 190);
 }
 
 }  // namespace

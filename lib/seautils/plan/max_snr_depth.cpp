@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace seautils::plan {
 
@@ -15,13 +16,85 @@ bool is_allowed(const std::vector<DepthBand>& allowed, double depth_m) {
     });
 }
 
-/// Two sections, of ratios.
+/// Two sections in a row, exact for values that are straight between depths: with slope s and C, D what they are behind by at
+/// the upper end, the first is x - s L + C e^(-z/L), the second x - 2 s L + (D + C z/L) e^(-z/L).
 void smooth(const std::vector<double>& depth_m, std::vector<double>& column_db, double length_m) {
     if (length_m <= 0) return;
-    for (double& x : column_db) x = std::pow(10, x / 10);
-    for (int section = 0; section < 2; ++section) low_pass_down(depth_m, column_db, length_m);
-    for (double& x : column_db) x = 10 * std::log10(x);
+    bool started = false;
+    double first = 0, second = 0, last_x = 0, last_m = 0;
+    for (std::size_t k = 0; k < column_db.size(); ++k) {
+        const double x = column_db[k];
+        if (std::isnan(x)) continue;
+        const double steps = (depth_m[k] - last_m) / length_m;
+        if (!started) {
+            first = second = x;
+        } else if (steps > 1e-9) {
+            const double e = std::exp(-steps);
+            const double rise = (x - last_x) / steps;  // s L
+            const double c = first - last_x + rise, d = second - last_x + 2 * rise;
+            first = x - rise + c * e;
+            second = x - 2 * rise + (d + c * steps) * e;
+        }
+        started = true;
+        last_x = x;
+        last_m = depth_m[k];
+        column_db[k] = second;
+    }
 }
+
+/// Fields, and what does not depend on range: one column after another.
+class Columns {
+public:
+    Columns(std::span<const LossField> fields, std::vector<double> rest, const SnrOptions& options)
+        : fields_(fields), rest_(std::move(rest)), options_(options) {}
+
+    double last_range_m() const {
+        double last = 0;
+        for (const LossField& field : fields_) last = std::max(last, field.range_m.back());
+        return last;
+    }
+
+    void add(double range_m, SnrForecast& forecast) const {
+        std::vector<std::vector<double>> each;
+        std::vector<double> loss_db, at_depth(fields_.size());
+        for (const LossField& field : fields_) each.push_back(losses(field, range_m));
+        for (std::size_t k = 0; k < rest_.size(); ++k) {
+            for (std::size_t i = 0; i < each.size(); ++i) at_depth[i] = each[i][k];
+            loss_db.push_back(loss_of_mean_db(at_depth));
+        }
+        forecast.snr_db.push_back(smoothed(loss_db));
+        forecast.deviation_db.emplace_back(rest_.size(), 0.0);
+        if (fields_.size() < 2) return;
+        for (std::vector<double>& one : each) one = smoothed(one);
+        for (std::size_t k = 0; k < rest_.size(); ++k) {
+            for (std::size_t i = 0; i < each.size(); ++i) at_depth[i] = each[i][k];
+            forecast.deviation_db.back()[k] = deviation_db(at_depth, HUGE_VAL);
+        }
+    }
+
+private:
+    /// Nearer than the field begins its first range counts.
+    std::vector<double> losses(const LossField& field, double range_m) const {
+        std::vector<double> all;
+        for (std::size_t k = 0; k < rest_.size(); ++k)
+            all.push_back(loss_at_db(field, k, std::max(range_m, field.range_m.front())));
+        return all;
+    }
+
+    std::vector<double> smoothed(const std::vector<double>& loss_db) const {
+        std::vector<double> s(rest_.size(), not_known);
+        for (std::size_t k = 0; k < s.size(); ++k)
+            if (!std::isnan(loss_db[k]))
+                s[k] = rest_[k] -
+                       options_.signal_weight * std::min(loss_db[k], options_.worst_loss_db);
+        smooth(fields_.front().depth_m, s, options_.smoothing_m);
+        return s;
+    }
+
+    std::span<const LossField> fields_;
+    std::vector<double> rest_;
+    const SnrOptions& options_;
+};
 
 /// The way to the best depth at a time.
 struct Way {
@@ -115,8 +188,10 @@ std::string_view name(SnrRule rule) {
 Objective SnrForecast::objective(std::size_t time, const std::vector<DepthBand>& allowed) const {
     Objective o{.name = "snr", .weight = 1, .depth_m = depth_m, .utility = snr_db[time]};
     double least = HUGE_VAL, most = -HUGE_VAL;
+    std::vector<bool> counts;
     for (std::size_t k = 0; k < depth_m.size(); ++k) {
-        if (std::isnan(o.utility[k]) || !is_allowed(allowed, depth_m[k])) continue;
+        counts.push_back(is_allowed(allowed, depth_m[k]));
+        if (std::isnan(o.utility[k]) || !counts.back()) continue;
         least = std::min(least, o.utility[k]);
         most = std::max(most, o.utility[k]);
     }
@@ -125,31 +200,31 @@ Objective SnrForecast::objective(std::size_t time, const std::vector<DepthBand>&
         if (std::isnan(u)) continue;
         u = span > 0 ? std::max((u - least) / span, 0.0) : 1.0;
     }
+    blend(o, deviation_db[time], uncertainty, counts);
     return o;
 }
 
-SnrForecast forecast_snr(const LossField& field, double range_m, double range_rate_mps,
+SnrForecast forecast_snr(std::span<const LossField> fields, double range_m, double range_rate_mps,
                          const std::function<double(double)>& noise_db,
                          const std::function<double(double)>& gain_db, const SnrOptions& options) {
-    SnrForecast forecast{.depth_m = field.depth_m, .time_s = {}, .range_m = {}, .snr_db = {}};
-    std::vector<double> rest;  // what does not depend on range
-    for (const double z : field.depth_m)
+    check_depths(fields);
+    SnrForecast forecast{.depth_m = fields.front().depth_m,
+                         .time_s = {},
+                         .range_m = {},
+                         .snr_db = {},
+                         .deviation_db = {},
+                         .uncertainty = {options.uncertainty_db, options.smoothing_m}};
+    std::vector<double> rest;
+    for (const double z : forecast.depth_m)
         rest.push_back(options.gain_weight * gain_db(z) - options.noise_weight * noise_db(z));
-    const double first_m = field.range_m.front(), last_m = field.range_m.back();
+    const Columns columns(fields, std::move(rest), options);
     for (std::size_t n = 0; static_cast<double>(n) * options.step_s <= options.horizon_s; ++n) {
         const double t = static_cast<double>(n) * options.step_s;
         const double r = std::max(range_m + range_rate_mps * t, 0.0);
-        if (n > 0 && r > last_m) continue;
-        std::vector<double> column;
-        for (std::size_t k = 0; k < rest.size(); ++k) {
-            const double h = loss_at_db(field, k, std::max(r, first_m));
-            column.push_back(rest[k] - options.signal_weight * std::min(h, options.worst_loss_db));
-            if (std::isnan(h)) column.back() = not_known;
-        }
-        smooth(forecast.depth_m, column, options.smoothing_m);
+        if (n > 0 && r > columns.last_range_m()) continue;
         forecast.time_s.push_back(t);
         forecast.range_m.push_back(r);
-        forecast.snr_db.push_back(std::move(column));
+        columns.add(r, forecast);
     }
     return forecast;
 }

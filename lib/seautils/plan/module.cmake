@@ -1,6 +1,7 @@
 seautils_module(NAME plan
   SOURCES
     acomms_depth.cpp
+    instances.cpp
     limits.cpp
     link_csv.cpp
     loss_csv.cpp
