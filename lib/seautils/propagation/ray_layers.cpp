@@ -106,35 +106,54 @@ Curve curve_of(const Profile& profile, SpeedInterpolation interpolation) {
     };
 }
 
+/// How far straight parts may be from the curve, chosen against 20 times as many: 0.2 dB for 95 % of
+/// the cells in 6000 m, 0.1 dB in 100 m.
+double tolerance_mps(const Profile& profile) {
+    const double depth_m = profile.back().depth_m - profile.front().depth_m;
+    return std::clamp(1e-3 * std::sqrt(depth_m / 1000), 5e-4, 3e-3);
+}
+
 /// How many straight parts keep c within the tolerance: that falls with their square.
-std::size_t parts_of(const Profile& profile, const Curve& curve, std::size_t k,
-                     double tolerance_mps) {
+std::size_t parts_of(const Profile& profile, const Curve& curve, std::size_t k, double most_mps) {
     double worst_mps = 0;
     for (const double part : {0.25, 0.5, 0.75}) {
         const double straight =
             between(profile[k].sound_speed_mps, profile[k + 1].sound_speed_mps, part);
         worst_mps = std::max(worst_mps, std::abs(curve(k, part) - straight));
     }
-    const double parts = std::sqrt(worst_mps / tolerance_mps);
-    const double least = worst_mps == 0 ? 1 : height_m(profile, k) / 10;
-    return static_cast<std::size_t>(std::ceil(std::clamp(std::max(parts, least), 1., 1e4)));
+    return static_cast<std::size_t>(
+        std::ceil(std::clamp(std::sqrt(worst_mps / most_mps), 1., 1e4)));
 }
 
+/// By how much the mean of the curve over a part of a layer is above that of its chord (Simpson's
+/// rule).
+double swell_mps(const Curve& curve, std::size_t k, double from, double to) {
+    const double chord_mps = 0.5 * (curve(k, from) + curve(k, to));
+    return (curve(k, 0.5 * (from + to)) - chord_mps) * 2 / 3;
+}
+
+/// Points between which c is straight, and on average as fast as the curve: what delays are made of.
 Profile resampled(const Profile& profile, SpeedInterpolation interpolation) {
     const auto curve = curve_of(profile, interpolation);
     std::vector<std::size_t> parts(profile.size() - 1);
     double total = 0;
     for (std::size_t k = 0; k < parts.size(); ++k)
-        total += static_cast<double>(parts[k] = parts_of(profile, curve, k, 2e-4));
+        total +=
+            static_cast<double>(parts[k] = parts_of(profile, curve, k, tolerance_mps(profile)));
     const double share = std::min(1., static_cast<double>(most_layers) / total);
     Profile out;
+    double above_mps = swell_mps(curve, 0, 0, 1. / static_cast<double>(parts[0]));
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const auto n = std::max(1., std::ceil(static_cast<double>(parts[k]) * share));
-        for (double j = 0; j < n; ++j)
-            out.push_back(
-                {between(profile[k].depth_m, profile[k + 1].depth_m, j / n), curve(k, j / n)});
+        for (double j = 0; j < n; ++j) {
+            const double below_mps = swell_mps(curve, k, j / n, (j + 1) / n);
+            out.push_back({between(profile[k].depth_m, profile[k + 1].depth_m, j / n),
+                           curve(k, j / n) + 0.5 * (above_mps + below_mps)});
+            above_mps = below_mps;
+        }
     }
     out.push_back(profile.back());
+    out.back().sound_speed_mps += above_mps;
     return out;
 }
 

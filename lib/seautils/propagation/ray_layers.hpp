@@ -12,8 +12,8 @@ namespace seautils::propagation {
 inline constexpr std::size_t most_layers = 2000;
 
 /// A profile as points between which c is linear: of `c_linear` its own points, thinned where they
-/// are more than `most_layers`; of the others as many as keep c within 2e-4 m/s, and at most 10 m
-/// apart, while `most_layers` allow.
+/// are more than `most_layers`; of the others as many as keep c within 0.5 to 3 mm/s (the deeper, the
+/// more), and right on average, while `most_layers` allow.
 /// @param profile  1 point at least; depths grow
 /// @param remarks  takes what was done to it, for people
 std::vector<SpeedPoint> linear_profile(const std::vector<SpeedPoint>& profile,
