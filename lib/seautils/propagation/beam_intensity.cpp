@@ -54,6 +54,11 @@ IntensitySum::IntensitySum(const RaySea& sea, const Columns& columns, const Beam
     least_per_m_ = least_width_m(sea, 1e-9) * 1e9;
 }
 
+void IntensitySum::add(const Launch& launch) {
+    forgotten_.forget();
+    add(launch, forgotten_);
+}
+
 void IntensitySum::add(const Launch& launch, KeptRay& ray) {
     const auto& ranges = columns_.range_m();
     if (ranges.empty() || launch.level == 0) return;

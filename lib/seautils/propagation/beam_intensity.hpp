@@ -33,6 +33,7 @@ public:
     /// Traces the ray of an angle and adds its beam.
     /// @param ray  what is known of the ray, and is known afterwards
     void add(const Launch& launch, KeptRay& ray);
+    void add(const Launch& launch);
     void add(const IntensitySum& other);
     /// After the last beam.
     void finish() { flush(); }
@@ -51,6 +52,7 @@ private:
     const Columns& columns_;
     BeamKind kind_;
     EnergyWalk walk_;
+    KeptRay forgotten_;      // of a ray that is not kept: its room
     std::uint64_t cut_ = 0;  // by others
     Spots spots_{};
     double energy_ = 0, width_per_q_ = 0;           // of the ray under way

@@ -78,6 +78,16 @@ KeptRay& KeptRay::operator=(KeptRay&& other) noexcept {
     return *this;
 }
 
+void KeptRay::forget() {
+    tracer.reset();
+    start = {};
+    whole = false;
+    legs.clear();
+    cycle = {};
+    so_far.clear();
+    marks.clear();
+}
+
 /// A source on a wall: the ray that would leave the water begins as its reflection.
 void EnergyWalk::begin(KeptRay& ray, double launch_rad) const {
     ray.tracer.emplace(sea_, launch_rad, far_m, false);

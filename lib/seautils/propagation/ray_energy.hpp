@@ -63,6 +63,8 @@ struct KeptRay {
     /// What it holds, in legs.
     std::size_t size() const { return legs.size() + so_far.size() + 3 * marks.size(); }
     void clear() { *this = {}; }
+    /// The same, but the room is kept.
+    void forget();
     KeptRay() = default;
     KeptRay(KeptRay&&) = default;
     KeptRay& operator=(KeptRay&& other) noexcept;

@@ -135,7 +135,7 @@ struct RayFields::Kept {
     RaySea sea;
     double spacing_rad;
     std::vector<Launch> fan;
-    std::vector<KeptRay> rays;  ///< as many, or none
+    std::vector<KeptRay> rays;  ///< as many; none before the sea comes again
 
     bool is_of(const Environment& e, const FieldOptions& o) const {
         return sum == o.sum && beam == o.beam && is_same_sea(environment, e) &&
@@ -159,7 +159,11 @@ RayFields::Kept& RayFields::kept(const Environment& environment, const FieldOpti
     });
     if (found != kept_.end()) {
         std::rotate(kept_.begin(), found, found + 1);
-        return *kept_.front();
+        Kept& again = *kept_.front();
+        const std::size_t beams = again.fan.size();
+        if (options.sum != Sum::coherent && 2 * legs_of_empty_ray * beams <= most_legs_)
+            again.rays.resize(beams);
+        return again;
     }
     auto now = std::make_unique<Kept>(
         Kept{environment, options.sum, options.beam, reach_m(environment), {}, {}, 0, {}, {}});
@@ -167,9 +171,6 @@ RayFields::Kept& RayFields::kept(const Environment& environment, const FieldOpti
     now->sea = make_ray_sea(environment, now->remarks);
     now->spacing_rad = fan_spacing_rad(environment, now->sea, options);
     now->fan = make_fan(environment, now->sea, options);
-    const bool is_kept =
-        options.sum != Sum::coherent && 2 * legs_of_empty_ray * now->fan.size() <= most_legs_;
-    if (is_kept) now->rays.resize(now->fan.size());
     kept_.insert(kept_.begin(), std::move(now));
     return *kept_.front();
 }
@@ -208,8 +209,8 @@ Field RayFields::field(const Environment& environment, const FieldOptions& optio
     if (!known.rays.empty()) kind.mark_every_m = reach_m(environment) / marks_of_ray;
     const std::size_t most_of_ray = known.rays.empty() ? 0 : most_legs_ / beams - legs_of_empty_ray;
     const auto add = [&](IntensitySum& sums, std::size_t k) {
-        KeptRay unknown;
-        KeptRay& ray = known.rays.empty() ? unknown : known.rays[k];
+        if (known.rays.empty()) return sums.add(known.fan[k]);
+        KeptRay& ray = known.rays[k];
         sums.add(known.fan[k], ray);
         if (ray.size() > most_of_ray) ray.clear();
     };

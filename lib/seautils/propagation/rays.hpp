@@ -20,7 +20,8 @@ Field ray_field(const Environment& environment, const FieldOptions& options);
 /// The same fields, one after another, to the same bits, whatever was computed before. Kept of the
 /// last seas is what does not hang on the receivers: the sea in layers, the fan, and of each ray
 /// the legs of its cycle, or where the sea depends on range where it passed the marks. Then rays
-/// begin just before the first receiver. A sea is known again when all numbers of it are the same.
+/// begin just before the first receiver. A sea is known again when all numbers of it are the same;
+/// rays are kept from its second field on.
 /// Rays of coherent sums are traced from the source.
 class RayFields {
 public:
