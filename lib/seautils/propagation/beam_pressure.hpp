@@ -19,7 +19,7 @@ public:
     /// Traces the ray of an angle and adds its beam.
     void add(const Launch& launch);
     void add(const PressureSum& other);
-    void finish() {}  // as of IntensitySum
+    void finish() {}                                          // as of IntensitySum
     std::uint64_t cut() const { return cut_ + walk_.cut(); }  ///< rays ended for their legs
     /// Pressure re 1 at 1 m, at depths of a column as Columns has them.
     const std::complex<float>* column(std::size_t column) const {
