@@ -74,6 +74,62 @@ END
     assert_equal "$(field '[.depth_m, .range_m]' <<< "${lines[2]}")" '[30,140]'
 }
 
+@test "depth-plan: states from a table are those of the records" {
+    cat > states.csv << 'END'
+# a dive
+time, depth_m, speed_mps, heading_deg, x_m, y_m, water_depth_m, contact.x_m, contact.y_m, contact.depth_m, battery
+2024-05-01T12:00:00Z,20,1,90,150,0,100,0,0,30,full
+2024-05-01T12:01:00.5Z,25,,,,,,,,,
+
+@1714564920,30,2,+90,200,0.0,,,,,x
+END
+    cat > states.ndjson << 'END'
+{"time":"2024-05-01T12:00:00Z","depth_m":20,"speed_mps":1,"heading_deg":90,"x_m":150,"y_m":0,"water_depth_m":100,"contact":{"x_m":0,"y_m":0,"depth_m":30}}
+{"time":"2024-05-01T12:01:00.5Z","depth_m":25}
+{"time":"2024-05-01T12:02:00Z","depth_m":30,"speed_mps":2,"heading_deg":90,"x_m":200,"y_m":0}
+END
+    for command in acomms snr; do
+        depth-plan $command --loss losses.csv states.ndjson > wanted
+        assert_equal "$(wc -l < wanted)" 3
+        run_quiet depth-plan $command --loss losses.csv states.csv
+        assert_equal "$output" "$(cat wanted)"
+        run_quiet depth-plan $command -F csv --loss losses.csv < states.csv
+        assert_equal "$output" "$(cat wanted)"
+    done
+    # the model is told the contact's depth
+    depth-plan acomms --model ./model states.csv > /dev/null
+    assert_equal "$(jq -c .source.depth_m asked | head -1)" 30
+    # the columns of a log of poscode; each file has its own; CR LF; what is no state is in JSON between
+    printf '\xEF\xBB\xBFlat,lon,t,depth,roll\r\n45.0016667,10,1714564800,20,3\r\n' > earth.csv
+    printf 'depth_m,contact.longitude_deg,contact.latitude_deg\n20,10,45\n' > contact.csv
+    run_quiet depth-plan acomms --clock input --loss losses.csv earth.csv contact.csv
+    assert_equal "$(field '[.time, .range_m, .depth_m]' <<< "${lines[1]}")" '["2024-05-01T12:00:00Z",185.2,30]'
+    run_quiet depth-plan acomms <<< $'depth_m,range_m\n20,150\n{"depth_m":[10,50],"range_m":[100,300],"tl_db":[90,90,60,60]}\n20,150'
+    assert_equal "$(field .depth_m <<< "$output" | xargs)" 'null 50'
+}
+
+@test "depth-plan: a bad row of states is located, dropped, and makes the status 1" {
+    bad() {
+        run -1 --separate-stderr depth-plan acomms --loss losses.csv <<< "time,depth_m,range_m"$'\n'"$1"$'\n'",20,150"
+        assert_equal "$stderr" "depth-plan: <stdin>:2: $2"
+        assert_equal "$(field .depth_m <<< "$output")" 30
+    }
+    bad ',20' '2 cells where the header has 3'
+    bad ',20,150,' '4 cells where the header has 3'
+    bad ',x,150' "depth_m 'x' is no number"
+    bad ',nan,150' "depth_m 'nan' is no number"
+    bad ',99999,150' 'depth_m 99999 is outside 0 to 12000 m'
+    bad 'noon,20,150' "time 'noon' is not of the form 2024-05-01T12:00:25Z"
+    run -1 --separate-stderr depth-plan acomms --loss losses.csv <<< $'a,b\n20,150'
+    assert_equal "${stderr%%$'\n'*}" "depth-plan: <stdin>:1: 'a,b' stands below no header that names depth_m or another column that is known"
+    run -1 --separate-stderr depth-plan acomms --loss losses.csv -F ndjson <<< 'depth_m,range_m'
+    assert_regex "$stderr" '^depth-plan: <stdin>:1: '
+    run -1 --separate-stderr depth-plan acomms --loss losses.csv -F csv <<< "$state"
+    assert_regex "$stderr" "^depth-plan: <stdin>:1: '.*' stands below no header"
+    run -65 --separate-stderr depth-plan acomms --strict --loss losses.csv <<< $'depth_m,range_m\n20\n20,150'
+    assert_output ''
+}
+
 @test "depth-plan: limits win, and say so" {
     run_quiet depth-plan acomms --loss losses.csv --max-depth 25 <<< "$state"
     assert_equal "$(field '[.depth_m, .rule, .free_depth_m, .bound_by]' <<< "$output")" '[25,"BEST",30,["most_depth"]]'
@@ -414,7 +470,9 @@ END
     for command in acomms snr link-stats; do
         run bash -c "depth-plan $command noise > got 2> said"
         assert [ "$status" -eq 1 ]
-        assert_equal "$(tr -d '[:print:]\n' < said | wc -c)" "$(grep -o '…' said | wc -c | awk '{ print $1 / 4 * 3 }')"
+        assert_equal "$(tr -d '[:print:]\n\200-\377' < said | wc -c)" 0
+        iconv -f UTF-8 -t UTF-8 < said > said_again
+        assert cmp said said_again
         assert_equal "$(wc -c < got)" 0
     done
 }

@@ -5,6 +5,7 @@
 #include "depth_options.hpp"
 #include "depth_records.hpp"
 #include "depth_state.hpp"
+#include "depth_state_csv.hpp"
 
 #include "seautils/cli/app.hpp"
 #include "seautils/cli/io.hpp"
@@ -33,11 +34,22 @@ public:
 private:
     /// The keys of the four kinds of records are no other's; in a text they would stand behind a backslash.
     void take(std::string_view line) {
+        if (is_row(line)) {
+            if (csv_.read(line, values_)) take_state();
+            return;
+        }
         const auto has = [&](std::string_view key) { return line.find(key) != line.npos; };
         if (has("\"utility\"")) return take_objective(line);
         if (has("\"tl_db\"")) return sea_.take_answer(line);
         if (has("\"sound_speed_mps\"")) return sea_.take_profile(line);
-        take_state(line);
+        reader_.read(line, schema_.state(), values_);
+        take_state();
+    }
+
+    bool is_row(std::string_view line) const {
+        if (io_.input_format != "auto") return io_.input_format == "csv";
+        const std::size_t first = line.find_first_not_of(" \t");
+        return first == line.npos || line[first] != '{';
     }
 
     void take_objective(std::string_view line) {
@@ -63,8 +75,7 @@ private:
         return all;
     }
 
-    void take_state(std::string_view line) {
-        reader_.read(line, schema_.state(), values_);
+    void take_state() {
         const std::int64_t now_ns = time();
         known_.merge(values_, now_ns);
         const double since_s = static_cast<double>(now_ns - decided_ns_.value_or(0)) * 1e-9;
@@ -144,6 +155,7 @@ private:
     std::optional<std::int64_t> decided_ns_;
     DepthSchema schema_;
     schema::JsonReader reader_;
+    DepthStateCsv csv_{schema_.state()};
     schema::Values values_;
 };
 
@@ -250,6 +262,7 @@ template <class Options, class Planner>
 int depth_main(int argc, char** argv, const char* name, const char* summary, const char* example) {
     Options options;
     cli::App app{name, summary, example, {.config = true, .clock = true}};
+    app.input_formats({"auto", "csv", "ndjson"});
     app.output_formats({"ndjson", "csv", "delimited", "objective"});
     options.add(app.options());
     return app.main(argc, argv, [&](cli::Io& io) {
