@@ -453,3 +453,25 @@ END
     run -0 bash -c "for k in \$(seq 3000); do echo '$whole'; done | tl-model --engine rays | head -1 | jq .id"
     assert_output 7
 }
+
+@test "tl-model: memory does not grow with the requests" {
+    skip_if_sanitized "what is freed is held there for a while"
+    # receivers that move, now and then another source, now and then what is refused
+    windows() {
+        awk -v to="$1" -v whole="$whole" 'BEGIN { print whole; for (k = 1; k < to; ++k)
+            printf "{\"source\":{\"depth_m\":%d},\"receivers\":{\"range_m\":[%d,%d]}}\n",
+                k % 500 == 7 ? -5 : 20 + int(k / 100) % 12, 100 + k * 7 % 900, 1100 + k * 7 % 90 }'
+    }
+    most_kb() { # REQUESTS: the most memory that they took
+        windows "$1" > requests
+        /usr/bin/time -f %M -o most "$SEAUTILS_BIN/tl-model" -q requests > answers || true
+        assert_equal "$(wc -l < answers)" "$1"
+        tail -n 1 most
+    }
+    [[ -x /usr/bin/time ]] || skip "time is not installed"
+    local few many
+    few=$(most_kb 2000)
+    many=$(most_kb 20000)
+    echo "$few kB for 2000, $many kB for 20000"
+    ((few > 1000 && many < few + 1024))
+}

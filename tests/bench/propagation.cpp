@@ -1,5 +1,5 @@
 // Rays: the loss on a grid, and the paths to a few receivers.
-#include "seautils/propagation/rays.hpp"
+#include "seautils/propagation/engine.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -66,6 +66,29 @@ void arrivals(benchmark::State& state, Environment sea) {
     state.counters["paths"] = static_cast<double>(paths);
 }
 
+/// A window of 176 m that moves, as receivers that come nearer do; the sea stays.
+void window_moves(benchmark::State& state, Environment sea) {
+    FieldComputer fields;
+    double from_m = 1800;
+    for (auto _ : state) {
+        sea.receivers.range_m = evenly(from_m, from_m + 176, 19);
+        from_m = from_m > 40 ? from_m - 13 : 1800;
+        benchmark::DoNotOptimize(fields.compute(sea, Engine::rays, {}));
+    }
+}
+
+/// The whole grid, each time under another profile.
+void profile_changes(benchmark::State& state, Environment sea) {
+    FieldComputer fields;
+    for (auto _ : state) {
+        sea.water.profile[3].sound_speed_mps += 1e-3;
+        benchmark::DoNotOptimize(fields.compute(sea, Engine::rays, {}));
+    }
+}
+
+BENCHMARK_CAPTURE(window_moves, shelf, shelf())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(window_moves, beach, beach())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(profile_changes, shelf, shelf())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(loss, shelf_incoherent, shelf(), Sum::incoherent)
     ->Arg(1)
     ->Arg(2)
