@@ -37,8 +37,8 @@ void plan_in(const sp::LossField& field, sp::RangeWindow window, const sp::Situa
     check_depth(choose_depth(curve.objective, limits, situation).depth_m, situation);
     const sp::SnrOptions options{.horizon_s = 600};
     const auto none = [](double) { return 0.0; };
-    const auto forecast = forecast_snr(field, window.from_m, (window.to_m - window.from_m) / 600,
-                                       none, none, options);
+    const auto forecast = forecast_snr({&field, 1}, window.from_m,
+                                       (window.to_m - window.from_m) / 600, none, none, options);
     const sp::SnrDecision d = decide(forecast, limits, situation, 1.5, options);
     check_depth(d.depth_m, situation);
     fuzz::require(std::abs(d.pitch_deg) <= options.most_pitch_deg + 1e-9, "pitch is bounded");
