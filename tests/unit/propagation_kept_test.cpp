@@ -1,4 +1,6 @@
 // What is kept from one field to the next changes no answer: not by a bit, whatever came before.
+#include "propagation_grids.hpp"
+
 #include "seautils/propagation/engine.hpp"
 #include "seautils/propagation/ray_energy.hpp"
 
@@ -10,12 +12,6 @@
 
 namespace seautils::propagation {
 namespace {
-
-std::vector<double> evenly(double from, double to, int count) {
-    std::vector<double> out;
-    for (int k = 0; k < count; ++k) out.push_back(from + (to - from) * k / std::max(1, count - 1));
-    return out;
-}
 
 Environment shelf() {
     Environment sea;

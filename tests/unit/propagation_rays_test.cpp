@@ -1,5 +1,7 @@
 // Rays against closed forms: straight ones and their images, arcs, cycles; and worlds at the edge
 // of sense.
+#include "propagation_grids.hpp"
+
 #include "seautils/propagation/rays.hpp"
 
 #include <gtest/gtest.h>
@@ -14,12 +16,6 @@ namespace seautils::propagation {
 namespace {
 
 using std::numbers::pi;
-
-std::vector<double> evenly(double from, double to, int count) {
-    std::vector<double> out;
-    for (int k = 0; k < count; ++k) out.push_back(from + (to - from) * k / std::max(1, count - 1));
-    return out;
-}
 
 /// Isovelocity water over a bottom like water: only the surface reflects.
 Environment lloyd() {

@@ -37,8 +37,8 @@ public:
 
     /// The ray of an angle at each of some ranges (which grow), without delays.
     std::vector<Probe> trace(double launch_rad, const std::vector<double>& range_m);
-    /// Calls found(depth's index, ray) for each ray between two neighbours that meets a depth, to
-    /// 1e-7 m.
+    /// Calls found(depth's index, ray) for each ray between two neighbours that meets a depth: launch,
+    /// direction, delay and spreading are those there, the rest that of a ray within 2 cm.
     template <class Found>
     void between(const Probe& a, const Probe& b, double range_m, Found&& found) {
         brackets_.clear();

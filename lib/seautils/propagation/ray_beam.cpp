@@ -28,12 +28,15 @@ void bounce(const RaySea& sea, Leg& leg) {
 
 void finish(const RaySea& sea, Leg& leg) {
     if (leg.touch != Touch::none) bounce(sea, leg);
-    const double along_m = leg.whole.along_m;
-    leg.length_per_m = along_m == 0 ? 0 : leg.whole.length_m / along_m;
-    leg.spread_per_m = along_m == 0 ? 0 : leg.whole.spread / along_m;
-    leg.fade = sea.absorption_np_per_m == 0
-                   ? 1
-                   : std::exp(-2 * sea.absorption_np_per_m * leg.whole.length_m);
+}
+
+Leg leg_at_launch(const RaySea& sea, const RayTracer& tracer) {
+    Leg leg;
+    leg.touch = tracer.touch_at_launch();
+    leg.grazing_sine = tracer.grazing_sine_at_launch();
+    leg.speed_mps = sea.source_speed_mps;
+    finish(sea, leg);
+    return leg;
 }
 
 }  // namespace seautils::propagation

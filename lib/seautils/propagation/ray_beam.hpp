@@ -22,13 +22,6 @@ struct BeamState {
 /// The same of a ray whose delay is not wanted: its legs have none.
 struct UntimedState : BeamState {};
 
-/// Only what an intensity needs.
-struct EnergyState {
-    double range_m = 0, length_m = 0, p = 1, q = 0;
-    double amplitude = 1;  ///< left by the walls
-    double fade = 1;       ///< of intensity, by the water
-};
-
 /// A ray ends after so many legs, whatever the world; of a large fan, when its share of
 /// `most_legs_of_fan` is used up.
 inline constexpr std::uint64_t least_legs = 20'000, most_legs = 200'000;
@@ -38,8 +31,12 @@ inline std::uint64_t legs_of_ray(std::size_t beams) {
     return std::clamp<std::uint64_t>(most_legs_of_fan / (beams + 1), least_legs, most_legs);
 }
 
-/// Adds to a leg what its wall does and what follows from its whole.
+/// Adds to a leg what its wall does.
 void finish(const RaySea& sea, Leg& leg);
+
+/// Of a source on a wall, the ray that would leave the water begins as its reflection: a leg without length.
+/// @pre tracer.touch_at_launch() is a wall
+Leg leg_at_launch(const RaySea& sea, const RayTracer& tracer);
 
 inline void pass(const Leg& leg, BeamState& state) {
     const double q = state.q + state.p * leg.whole.spread;
@@ -53,15 +50,6 @@ inline void pass(const Leg& leg, BeamState& state) {
     state.amplitude *= leg.magnitude;
     state.phase_rad += leg.phase_rad;
     ++(leg.touch == Touch::surface ? state.surface_bounces : state.bottom_bounces);
-}
-
-inline void pass(const Leg& leg, EnergyState& state) {
-    state.q += state.p * leg.whole.spread;
-    state.p += leg.kick * state.q;
-    state.range_m += leg.whole.along_m;
-    state.length_m += leg.whole.length_m;
-    state.amplitude *= leg.magnitude;
-    state.fade *= leg.fade;
 }
 
 /// Legs of one ray; where the sea is periodic, of its first cycle, again and again.
@@ -81,7 +69,7 @@ public:
     void run(double launch_rad, double stop_m, double least_amplitude, Visit&& visit) {
         RayTracer tracer(sea_, launch_rad, stop_m, std::is_same_v<State, BeamState>);
         State state;
-        launch(tracer, state);
+        if (tracer.touch_at_launch() != Touch::none) pass(leg_at_launch(sea_, tracer), state);
         cycle_.clear();
         std::uint64_t left = legs_of_ray_;
         const auto step = [&](const Leg& leg) {
@@ -106,18 +94,6 @@ public:
     }
 
 private:
-    /// A source on a wall: the ray that would leave the water begins as its reflection.
-    template <class State>
-    void launch(const RayTracer& tracer, State& state) const {
-        if (tracer.touch_at_launch() == Touch::none) return;
-        Leg leg;
-        leg.touch = tracer.touch_at_launch();
-        leg.grazing_sine = tracer.grazing_sine_at_launch();
-        leg.speed_mps = sea_.source_speed_mps;
-        finish(sea_, leg);
-        pass(leg, state);
-    }
-
     const RaySea& sea_;
     std::uint64_t legs_of_ray_, legs_ = 0, cut_ = 0;
     std::vector<Leg> cycle_;

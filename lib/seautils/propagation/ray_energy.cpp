@@ -1,20 +1,24 @@
 #include "seautils/propagation/ray_energy.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace seautils::propagation {
 namespace {
 
-EnergyLeg energy_leg(const Leg& leg) {
+EnergyLeg energy_leg(const RaySea& sea, const Leg& leg) {
+    const double along_m = leg.whole.along_m, length_m = leg.whole.length_m;
+    const double fade =
+        sea.absorption_np_per_m == 0 ? 1 : std::exp(-2 * sea.absorption_np_per_m * length_m);
     const auto single = [](double x) { return static_cast<float>(x); };
     return {.along_m = leg.whole.along_m,
             .spread = leg.whole.spread,
             .kick = leg.kick,
             .length_m = single(leg.whole.length_m),
             .magnitude = single(leg.magnitude),
-            .fade = single(leg.fade),
-            .length_per_m = single(leg.length_per_m),
-            .spread_per_m = single(leg.spread_per_m),
+            .fade = single(fade),
+            .length_per_m = single(along_m == 0 ? 0 : length_m / along_m),
+            .spread_per_m = single(along_m == 0 ? 0 : leg.whole.spread / along_m),
             .depth_m = single(leg.depth_m),
             .cosine = single(leg.cosine),
             .sine = single(leg.sine),
@@ -88,23 +92,17 @@ void KeptRay::forget() {
     marks.clear();
 }
 
-/// A source on a wall: the ray that would leave the water begins as its reflection.
 void EnergyWalk::begin(KeptRay& ray, double launch_rad) const {
     ray.tracer.emplace(sea_, launch_rad, far_m, false);
-    if (ray.tracer->touch_at_launch() == Touch::none) return;
-    Leg leg;
-    leg.touch = ray.tracer->touch_at_launch();
-    leg.grazing_sine = ray.tracer->grazing_sine_at_launch();
-    leg.speed_mps = sea_.source_speed_mps;
-    finish(sea_, leg);
-    pass(energy_leg(leg), ray.start);
+    if (ray.tracer->touch_at_launch() != Touch::none)
+        pass(energy_leg(sea_, leg_at_launch(sea_, *ray.tracer)), ray.start);
 }
 
 bool EnergyWalk::next(RayTracer& tracer, EnergyLeg& out) const {
     Leg leg;
     if (!tracer.next(leg)) return false;
     finish(sea_, leg);
-    out = energy_leg(leg);
+    out = energy_leg(sea_, leg);
     return true;
 }
 

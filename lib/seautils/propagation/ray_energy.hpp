@@ -10,7 +10,14 @@
 
 namespace seautils::propagation {
 
-/// What an intensity needs of a leg: a third of it.
+/// What an intensity needs of what a ray has gathered.
+struct EnergyState {
+    double range_m = 0, length_m = 0, p = 1, q = 0;
+    double amplitude = 1;  ///< left by the walls
+    double fade = 1;       ///< of intensity, by the water
+};
+
+/// What it needs of a leg: a third of it.
 struct EnergyLeg {
     double along_m = 0, spread = 0, kick = 0;
     float length_m = 0, magnitude = 1, fade = 1;

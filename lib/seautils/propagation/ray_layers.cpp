@@ -141,10 +141,13 @@ Profile resampled(const Profile& profile, SpeedInterpolation interpolation) {
         total +=
             static_cast<double>(parts[k] = parts_of(profile, curve, k, tolerance_mps(profile)));
     const double share = std::min(1., static_cast<double>(most_layers) / total);
+    const auto count = [&](std::size_t k) {
+        return std::max(1., std::ceil(static_cast<double>(parts[k]) * share));
+    };
     Profile out;
-    double above_mps = swell_mps(curve, 0, 0, 1. / static_cast<double>(parts[0]));
+    double above_mps = swell_mps(curve, 0, 0, 1 / count(0));
     for (std::size_t k = 0; k < parts.size(); ++k) {
-        const auto n = std::max(1., std::ceil(static_cast<double>(parts[k]) * share));
+        const double n = count(k);
         for (double j = 0; j < n; ++j) {
             const double below_mps = swell_mps(curve, k, j / n, (j + 1) / n);
             out.push_back({between(profile[k].depth_m, profile[k + 1].depth_m, j / n),

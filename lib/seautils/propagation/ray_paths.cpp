@@ -45,12 +45,12 @@ std::vector<RayPath> ray_paths(const Environment& environment, const FieldOption
             count == 1 ? 0.5 : static_cast<double>(k) / static_cast<double>(count - 1);
         path.launch_deg = std::lerp(environment.fan.least_deg, environment.fan.most_deg, share);
         add_point(path, 0, sea.source_depth_m);
-        walk.run<EnergyState>(path.launch_deg * std::numbers::pi / 180, stop_m,
-                              options.least_amplitude,
-                              [&](const Leg& leg, const EnergyState& state) {
-                                  add_leg(path, leg, state.range_m, stop_m);
-                                  return path.range_m.size() < most_points;
-                              });
+        walk.run<UntimedState>(path.launch_deg * std::numbers::pi / 180, stop_m,
+                               options.least_amplitude,
+                               [&](const Leg& leg, const BeamState& state) {
+                                   add_leg(path, leg, state.range_m, stop_m);
+                                   return path.range_m.size() < most_points;
+                               });
     }
     return paths;
 }

@@ -28,9 +28,6 @@ struct Leg {
     double kick = 0, magnitude = 1, phase_rad = 0;
     Touch touch = Touch::none;
     double grazing_sine = 0;  ///< where it touches
-    // Made by finish():
-    double length_per_m = 0, spread_per_m = 0;  ///< over range
-    double fade = 1;                            ///< of intensity, by the water
 
     /// Up to `along_m` in range, between 0 and whole.along_m. Exact, but for the twist of a cell.
     Advance part(double along_m) const;
