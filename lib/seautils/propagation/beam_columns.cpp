@@ -5,7 +5,11 @@
 namespace seautils::propagation {
 namespace {
 
-constexpr std::size_t lanes = 4;
+/// So many depths, and what stands in memory beyond them.
+std::size_t padded(std::size_t depths) {
+    return (depths + Depths::grain - 1) / Depths::grain * Depths::grain + Depths::run_past;
+}
+
 /// What is added at a third of the width of the narrowest beam is interpolated by cubics to 0.04
 /// dB, three widths off a beam's axis, and better near it.
 constexpr double steps_per_width = 3;
@@ -26,13 +30,13 @@ double even_step_m(const std::vector<double>& depth_m) {
 
 Depths::Depths(const std::vector<double>& depth_m) : count_(depth_m.size()) {
     depth_m_.assign(depth_m.begin(), depth_m.end());
-    depth_m_.resize((count_ + lanes - 1) / lanes * lanes, depth_m_.back());
+    depth_m_.resize(padded(count_), depth_m_.back());
     step_m_ = even_step_m(depth_m);
     make_bins();
 }
 
 Depths::Depths(float top_m, float step_m, std::size_t count) : count_(count) {
-    depth_m_.resize((count + lanes - 1) / lanes * lanes);
+    depth_m_.resize(padded(count));
     for (std::size_t k = 0; k < depth_m_.size(); ++k)
         depth_m_[k] = top_m + step_m * static_cast<float>(k);
     make_bins();

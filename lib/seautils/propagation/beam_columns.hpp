@@ -11,9 +11,12 @@
 
 namespace seautils::propagation {
 
-/// Depths at which beams are added, in whole vectors of four: beyond `count` they only fill.
+/// Depths at which beams are added. Beyond `count` they only fill: vectors begin at each `grain`
+/// and may run past the last by `run_past`.
 class Depths {
 public:
+    static constexpr std::size_t grain = 4, run_past = 4;
+
     /// @param depth_m  grows; 1 at least
     explicit Depths(const std::vector<double>& depth_m);
     /// `count` of them, evenly from `top_m`, at least 2.

@@ -44,6 +44,8 @@ public:
 private:
     void meet(const EnergyLeg& leg, const EnergyState& state, std::size_t column);
     void flush();
+    void spread_all();
+    void spread_all_wide();
     void shape();
     void spread(std::size_t spot);
     void spread(std::size_t spot, const Columns::View& column, float depth_m, float height);
