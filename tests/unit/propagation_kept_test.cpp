@@ -135,7 +135,6 @@ TEST(Kept, CyclesTimesACountAreOneAfterAnother) {
     const EnergyCycle one{.range_m = 120,
                           .length_m = 130,
                           .amplitude = 0.9,
-                          .fade = 0.99,
                           .qq = 1.5,
                           .qp = 4,
                           .pq = -0.0625,
@@ -145,7 +144,7 @@ TEST(Kept, CyclesTimesACountAreOneAfterAnother) {
         const EnergyCycle at_once = one.times(n);
         EXPECT_NEAR(at_once.range_m, walked.range_m, 1e-9);
         EXPECT_NEAR(at_once.amplitude, walked.amplitude, 1e-12);
-        EXPECT_NEAR(at_once.fade, walked.fade, 1e-12);
+        EXPECT_NEAR(at_once.length_m, walked.length_m, 1e-9);
         EXPECT_NEAR(at_once.qq, walked.qq, 1e-9);
         EXPECT_NEAR(at_once.qp, walked.qp, 1e-9);
         EXPECT_NEAR(at_once.pq, walked.pq, 1e-9);

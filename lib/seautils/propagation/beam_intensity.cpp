@@ -51,11 +51,34 @@ IntensitySum::IntensitySum(const RaySea& sea, const Columns& columns, const Beam
     : sea_(sea),
       columns_(columns),
       kind_(kind),
-      walk_(sea, kind.legs, kind.mark_every_m),
+      walk_(sea, kind.legs, kind.least_amplitude, kind.mark_every_m),
       sum_(columns.cells()) {
     if (kind.beam == Beam::hat) return;
-    least_at_most_m_ = least_width_m(sea, far_m);
-    least_per_m_ = least_width_m(sea, 1e-9) * 1e9;
+    least_at_most_m_ = static_cast<float>(least_width_m(sea, far_m));
+    least_per_m_ = static_cast<float>(least_width_m(sea, 1e-9) * 1e9);
+}
+
+SEAUTILS_INLINED void IntensitySum::meet(const EnergyArc& arc, const EnergyState& state,
+                                         std::size_t column) {
+    const Columns::View& view = columns_.view(column);
+    const double along_m = view.range_m - state.range_m;
+    const double q = std::abs(state.q + state.p * double{arc.spread_per_m} * along_m);
+    if (!(q < 1e15)) return;
+    const std::size_t k = spots_.count++;
+    const auto along = static_cast<float>(along_m);
+    spots_.column[k] = static_cast<std::uint32_t>(column);
+    spots_.cosine[k] = std::abs(arc.cosine);
+    spots_.sine[k] = arc.sine;
+    spots_.turn[k] = arc.curvature * along;
+    spots_.along_m[k] = std::abs(along);
+    spots_.depth_m[k] = arc.depth_m;
+    spots_.speed_mps[k] = arc.speed_mps + arc.range_gradient * along;
+    spots_.gradient[k] = arc.depth_gradient;
+    spots_.width_m[k] = static_cast<float>(width_per_q_ * q);
+    spots_.path_m[k] = static_cast<float>(state.length_m + double{arc.length_per_m} * along_m);
+    spots_.energy[k] =
+        static_cast<float>(energy_ * state.amplitude * state.amplitude * view.per_range);
+    if (spots_.count == Spots::most) flush();
 }
 
 void IntensitySum::add(const Launch& launch) {
@@ -70,48 +93,12 @@ void IntensitySum::add(const Launch& launch, KeptRay& ray) {
     if (kind_.sum == Sum::semi_coherent)
         level *= std::numbers::sqrt2 * std::sin(2 * pi * sea_.frequency_hz * sea_.source_depth_m *
                                                 std::sin(launch.angle_rad) / sea_.source_speed_mps);
-    energy_ = level * level * std::abs(std::cos(launch.angle_rad)) * launch.spacing_rad /
-              sea_.source_speed_mps;
+    energy_ = level * level * launch.cosine * launch.spacing_rad / sea_.source_speed_mps;
     width_per_q_ = launch.spacing_rad / sea_.source_speed_mps;
-    std::size_t column = 0;
-    double next_m = ranges[0], last_m = -far_m;
-    walk_.run(ray, launch.angle_rad, ranges[0], ranges.back(), kind_.least_amplitude,
-              [&](const EnergyLeg& leg, const EnergyState& state) {
-                  const double end_m = state.range_m + leg.along_m;
-                  if (end_m < next_m && end_m >= last_m) return;
-                  while (column < ranges.size() && ranges[column] <= end_m)
-                      meet(leg, state, column++);
-                  while (column > 0 && ranges[column - 1] > end_m) meet(leg, state, --column);
-                  next_m = column < ranges.size() ? ranges[column] : far_m;
-                  last_m = column > 0 ? ranges[column - 1] : -far_m;
+    walk_.run(ray, launch.angle_rad, ranges,
+              [&](const EnergyArc& arc, const EnergyState& state, std::size_t column) {
+                  meet(arc, state, column);
               });
-}
-
-void IntensitySum::meet(const EnergyLeg& leg, const EnergyState& state, std::size_t column) {
-    const Columns::View& view = columns_.view(column);
-    const double along_m = view.range_m - state.range_m;
-    const double q = std::abs(state.q + state.p * double{leg.spread_per_m} * along_m);
-    const double path_m = double{leg.length_per_m} * along_m;
-    const double faded = 2 * sea_.absorption_np_per_m * path_m;
-    const double fade =
-        state.fade * (faded < 0.1 ? 1 - faded * (1 - faded * (0.5 - faded / 6)) : std::exp(-faded));
-    if (!(q < 1e15)) return;
-    const std::size_t k = spots_.count++;
-    const auto along = static_cast<float>(along_m);
-    spots_.column[k] = static_cast<std::uint32_t>(column);
-    spots_.cosine[k] = std::abs(leg.cosine);
-    spots_.sine[k] = leg.sine;
-    spots_.turn[k] = leg.curvature * along;
-    spots_.along_m[k] = std::abs(along);
-    spots_.depth_m[k] = leg.depth_m;
-    spots_.speed_mps[k] = leg.speed_mps + leg.range_gradient * along;
-    spots_.gradient[k] = leg.depth_gradient;
-    spots_.width_m[k] = static_cast<float>(width_per_q_ * q);
-    spots_.least_m[k] =
-        static_cast<float>(std::min(least_per_m_ * (state.length_m + path_m), least_at_most_m_));
-    spots_.energy[k] =
-        static_cast<float>(energy_ * state.amplitude * state.amplitude * fade * view.per_range);
-    if (spots_.count == Spots::most) flush();
 }
 
 /// From arcs to kernels.
@@ -121,26 +108,30 @@ SEAUTILS_INLINED void IntensitySum::shape() {
     const float narrow = 0.84932180F;  // √(log2(e)/2): exp(-n²/2) as a power of two
     const float area = 0.39894228F;    // 1/√(2π)
     const float factor = static_cast<float>(kind_.width_factor);
-    for (std::size_t k = 0; k < (s.count + lanes - 1) / lanes * lanes; ++k) {
+    const float fading =
+        static_cast<float>(2 * std::numbers::log2e * sea_.absorption_np_per_m);  // in powers of two
+    for (std::size_t k = 0; k < s.count; ++k) {
         const float sine = s.sine[k] + s.turn[k];
         const float cosine = std::sqrt(std::max(1.F - sine * sine, 1e-10F));
         const float down_m = s.along_m[k] * (s.sine[k] + sine) / (s.cosine[k] + cosine);
-        const bool hat = s.width_m[k] > hat_over * s.least_m[k];
-        const float gaussian_m = std::max(factor * s.width_m[k], s.least_m[k]);
+        const float least_m = std::min(least_per_m_ * s.path_m[k], least_at_most_m_);
+        const bool hat = s.width_m[k] > hat_over * least_m;
+        const float gaussian_m = std::max(factor * s.width_m[k], least_m);
         const float width_m = std::max(hat ? s.width_m[k] : gaussian_m, 1e-6F);
         s.depth_m[k] += down_m;
         s.sine[k] = sine;
-        s.height[k] =
-            s.energy[k] * (s.speed_mps[k] + s.gradient[k] * down_m) / width_m * (hat ? 1.F : area);
+        const float faded = power_of_two(std::max(-fading * s.path_m[k], -126.F));
+        s.height[k] = s.energy[k] * faded * (s.speed_mps[k] + s.gradient[k] * down_m) / width_m *
+                      (hat ? 1.F : area);
         s.steepness[k] = (hat ? 1.F : narrow) * cosine / width_m;
         s.half_m[k] = (hat ? 1.F : gaussian_reach) * width_m / cosine;
-        s.mirrored[k] = hat ? 1.F - s.least_m[k] / (hat_rms * width_m) : 0.F;
+        s.mirrored[k] = hat ? 1.F - least_m / (hat_rms * width_m) : 0.F;
         s.hat[k] = hat;
     }
 }
 
-SEAUTILS_INLINED void IntensitySum::spread(std::size_t k, const Columns::View& column, float depth_m,
-                                 float height) {
+SEAUTILS_INLINED void IntensitySum::spread(std::size_t k, const Columns::View& column,
+                                           float depth_m, float height) {
     const Spots& s = spots_;
     const auto [from, to] = column.finder.run(depth_m - s.half_m[k], depth_m + s.half_m[k]);
     float* out = sum_.data() + column.offset;

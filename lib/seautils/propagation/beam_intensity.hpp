@@ -18,7 +18,7 @@ struct Spots {
     std::array<std::uint32_t, most> column;
     // What they are made of: the arc up to the column, speed at its beginning, and what the ray has
     // gathered.
-    Floats cosine, sine, turn, along_m, depth_m, speed_mps, gradient, width_m, least_m, energy;
+    Floats cosine, sine, turn, along_m, depth_m, speed_mps, gradient, width_m, path_m, energy;
     // What follows: the kernel over depth, and how far it reaches.
     Floats height, steepness, half_m, mirrored;
     std::array<std::uint8_t, most> hat;
@@ -42,7 +42,7 @@ public:
     const float* column(std::size_t column) const { return sum_.data() + columns_.offset(column); }
 
 private:
-    void meet(const EnergyLeg& leg, const EnergyState& state, std::size_t column);
+    void meet(const EnergyArc& arc, const EnergyState& state, std::size_t column);
     void flush();
     void spread_all();
     void spread_all_wide();
@@ -56,9 +56,9 @@ private:
     EnergyWalk walk_;
     KeptRay forgotten_;      // of a ray that is not kept: its room
     std::uint64_t cut_ = 0;  // by others
-    Spots spots_{};
-    double energy_ = 0, width_per_q_ = 0;           // of the ray under way
-    double least_per_m_ = 0, least_at_most_m_ = 0;  // width of a beam over its path; 0 of hats
+    Spots spots_;
+    double energy_ = 0, width_per_q_ = 0;          // of the ray under way
+    float least_per_m_ = 0, least_at_most_m_ = 0;  // width of a beam over its path; 0 of hats
     std::vector<float> sum_;
 };
 

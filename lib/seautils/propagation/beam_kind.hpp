@@ -26,6 +26,7 @@ struct Launch {
     double angle_rad = 0;
     double spacing_rad = 0;  ///< share of the fan
     double level = 1;        ///< amplitude of the source in that direction
+    double cosine = 1;       ///< of the angle
 };
 
 }  // namespace seautils::propagation

@@ -94,10 +94,10 @@ void PressureSum::meet(const Leg& leg, const BeamState& state, std::size_t colum
     spot.depth_m = leg.depth_m + at.down_m;
     spot.half_m = (hat ? 1 : gaussian_reach) * width_m / across;
     spot.steepness = across / width_m;
-    spot.height = launch_.level * state.amplitude * std::exp(-sea_.absorption_np_per_m * length_m) *
-                  std::sqrt(std::abs(std::cos(launch_.angle_rad)) / (hat ? 1 : 2 * pi) * speed_mps /
-                            (std::abs(q) * range_m)) *
-                  between_m / width_m;
+    spot.height =
+        launch_.level * state.amplitude * std::exp(-sea_.absorption_np_per_m * length_m) *
+        std::sqrt(launch_.cosine / (hat ? 1 : 2 * pi) * speed_mps / (std::abs(q) * range_m)) *
+        between_m / width_m;
     spot.phase_rad = state.phase_rad + 0.5 * pi * (state.caustics + (caustic ? 1 : 0)) -
                      omega * (state.delay_s + at.delay_s);
     spot.phase_per_m = -omega * at.sine / speed_mps;

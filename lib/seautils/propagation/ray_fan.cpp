@@ -61,8 +61,9 @@ double flat_spacing_rad(const Environment& environment, const RaySea& sea,
 }
 
 Launch launch_at(const Environment& environment, double angle_deg, double spacing_deg) {
-    return {angle_deg * rad_per_deg, spacing_deg * rad_per_deg,
-            level_at(environment.source.pattern, angle_deg)};
+    const double angle_rad = angle_deg * rad_per_deg;
+    return {angle_rad, spacing_deg * rad_per_deg, level_at(environment.source.pattern, angle_deg),
+            std::abs(std::cos(angle_rad))};
 }
 
 std::vector<Launch> even_fan(const Environment& environment) {
