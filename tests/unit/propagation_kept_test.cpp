@@ -1,13 +1,17 @@
 // What is kept from one field to the next changes no answer: not by a bit, whatever came before.
 #include "propagation_grids.hpp"
 
+#include "seautils/propagation/beam_intensity.hpp"
+#include "seautils/propagation/column_store.hpp"
 #include "seautils/propagation/engine.hpp"
 #include "seautils/propagation/ray_energy.hpp"
+#include "seautils/propagation/ray_fan.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace seautils::propagation {
@@ -62,8 +66,11 @@ public:
         if (kind == 4) options.least_amplitude = std::pow(10, -1 - below(4));
         if (kind == 5) environment.source.depth_m = below(3) * 15;
         const double from_m = 10 + 3 * below(900);
-        environment.receivers.range_m =
-            evenly(from_m, from_m + 10 * (1 + below(20)), 1 + below(20));
+        const int count = 1 + below(20);
+        environment.receivers.range_m = evenly(from_m, from_m + 10 * (1 + below(20)), count);
+        if (kind > 5) return;
+        const double first_m = 10 * below(200);  // columns come again
+        environment.receivers.range_m = evenly(first_m, first_m + 10 * (count - 1), count);
     }
 
     Environment environment = shelf();
@@ -81,6 +88,7 @@ void expect_same(const Field& a, const Field& b) {
     ASSERT_EQ(a.loss_db.size(), b.loss_db.size());
     EXPECT_EQ(a.basis.beams, b.basis.beams);
     EXPECT_EQ(a.basis.remarks, b.basis.remarks);
+    EXPECT_EQ(a.basis.estimated_error_db, b.basis.estimated_error_db);
     for (std::size_t k = 0; k < a.loss_db.size(); ++k) {
         if (std::isnan(a.loss_db[k]) && std::isnan(b.loss_db[k])) continue;
         ASSERT_EQ(a.loss_db[k], b.loss_db[k]) << "cell " << k;
@@ -99,6 +107,19 @@ TEST(Kept, FieldsAreThoseOfAFreshStart) {
         expect_same(all.compute(sea, Engine::rays, requests.options), fresh);
         expect_same(some.compute(sea, Engine::rays, requests.options), fresh);
         expect_same(none.compute(sea, Engine::rays, requests.options), fresh);
+        if (HasFatalFailure()) return;
+    }
+}
+
+/// More columns than are kept, back and forth.
+TEST(Kept, ColumnsOfAWindowThatSlides) {
+    FieldComputer kept;
+    Environment sea = shelf();
+    std::mt19937 random(3);
+    for (int k = 0; k < 200; ++k) {
+        const double from_m = 10 * static_cast<double>(random() % 3000U);
+        sea.receivers.range_m = evenly(from_m, from_m + 100, 11);
+        expect_same(kept.compute(sea, Engine::rays, {}), ray_field(sea, {}));
         if (HasFatalFailure()) return;
     }
 }
@@ -129,6 +150,52 @@ TEST(Kept, ClosedFormOfCyclesIsTheWalk) {
                 EXPECT_NEAR(window.loss_db[depth * 40 + k], grid.loss_db[depth * 800 + 760 + k],
                             0.01);
     }
+}
+
+TEST(ColumnStore, KeepsTheLastAndForgetsOtherDepths) {
+    const std::vector<double> depth_m = evenly(0, 99, 100);
+    const std::size_t most = ColumnStore::most_cells / 100;
+    ColumnStore store;
+    store.open(depth_m);
+    EXPECT_EQ(store.find(1), nullptr);
+    for (std::size_t k = 0; k < most + 5; ++k)
+        store.put(static_cast<double>(k), std::vector<float>(100, static_cast<float>(k)).data());
+    for (std::size_t k = 0; k < most + 5; ++k) {
+        const float* found = store.find(static_cast<double>(k));
+        ASSERT_EQ(found == nullptr, k < 5) << k;
+        if (k >= 5) {
+            EXPECT_EQ(found[99], static_cast<float>(k));
+        }
+    }
+    store.open(depth_m);
+    EXPECT_NE(store.find(7), nullptr);
+    store.open(evenly(0, 98, 99));
+    EXPECT_EQ(store.find(7), nullptr);
+}
+
+/// Of vectors of eight and of four; where the processor has none of eight there is one way only.
+TEST(IntensitySum, IsTheSameForVectorsOfAnyWidth) {
+    for (const Environment& environment : {shelf(), channel(), front()})
+        for (const Beam beam : {Beam::gaussian, Beam::hat}) {
+            FieldOptions options;
+            options.beam = beam;
+            std::vector<std::string> remarks;
+            const RaySea sea = make_ray_sea(environment, remarks);
+            const Columns columns(sea, environment.receivers, options, {});
+            BeamKind kind = beam_kind(environment, options);
+            kind.legs = most_legs;
+            IntensitySum wide(sea, columns, kind);
+            kind.wide = false;
+            IntensitySum narrow(sea, columns, kind);
+            for (const Launch& launch : make_fan(environment, sea, options)) {
+                wide.add(launch, true);
+                narrow.add(launch, true);
+            }
+            wide.finish();
+            narrow.finish();
+            for (std::size_t cell = 0; cell < columns.cells(); ++cell)
+                ASSERT_EQ(wide.column(0)[cell], narrow.column(0)[cell]) << cell;
+        }
 }
 
 TEST(Kept, CyclesTimesACountAreOneAfterAnother) {

@@ -326,6 +326,35 @@ TEST(Rays, SameWhateverTheThreads) {
     }
 }
 
+/// The estimate is for 95 % of the cells, of what a fan 16 times as dense has otherwise.
+TEST(Rays, EstimatedErrorIsThatOfTheFan) {
+    Environment deep = channel();
+    deep.water.profile = {{0, 1548}, {200, 1530}, {1300, 1500}, {5000, 1551}};
+    deep.bottom_depth_m = 5000;
+    deep.source.depth_m = 1000;
+    deep.receivers = {evenly(50, 4950, 99), evenly(1000, 80000, 80)};
+    for (Environment sea : {channel(), deep})
+        for (const Sum sum : {Sum::incoherent, Sum::coherent}) {
+            FieldOptions options;
+            options.sum = sum;
+            const Field field = ray_field(sea, options);
+            sea.fan.beams = static_cast<std::uint32_t>(16 * field.basis.beams);
+            const Field dense = ray_field(sea, options);
+            sea.fan.beams = 0;
+            std::vector<double> error_db;
+            for (std::size_t k = 0; k < field.loss_db.size(); ++k)
+                if (dense.loss_db[k] < 110)
+                    error_db.push_back(
+                        std::abs(double{field.loss_db[k]} - double{dense.loss_db[k]}));
+            std::sort(error_db.begin(), error_db.end());
+            const double true_db = error_db[error_db.size() * 19 / 20];
+            const double estimate_db = field.basis.estimated_error_db;
+            EXPECT_GT(estimate_db, 0.7 * true_db);
+            EXPECT_LT(estimate_db, std::max(5 * true_db, 1.)) << "where it is " << true_db;
+            EXPECT_LT(dense.basis.estimated_error_db, 0.5 * estimate_db);
+        }
+}
+
 TEST(Rays, PatternAndBaffleTakeTheirShare) {
     auto environment = lloyd();
     environment.receivers = {{100}, {500}};  // direct path 8.53° down, image 14.04°

@@ -5,11 +5,6 @@
 namespace seautils::propagation {
 namespace {
 
-/// So many depths, and what stands in memory beyond them.
-std::size_t padded(std::size_t depths) {
-    return (depths + Depths::grain - 1) / Depths::grain * Depths::grain + Depths::run_past;
-}
-
 /// What is added at a third of the width of the narrowest beam is interpolated by cubics to 0.04
 /// dB, three widths off a beam's axis, and better near it.
 constexpr double steps_per_width = 3;
@@ -60,39 +55,84 @@ void Depths::make_bins() {
     bin_.push_back(static_cast<std::uint32_t>(count_));
 }
 
-Columns::Columns(const RaySea& sea, const Receivers& receivers, const FieldOptions& options) {
+Columns::Columns(const RaySea& sea, const Receivers& receivers, const FieldOptions& options,
+                 const std::vector<double>& probe_m) {
     if (receivers.depth_m.empty()) return;
     depths_.emplace_back(receivers.depth_m);
-    const float top_m = depths_[0].top_m();
-    const float span_m = static_cast<float>(receivers.depth_m.back()) - top_m;
     const bool coarse = options.beam == Beam::gaussian && options.sum != Sum::coherent;
+    std::size_t probe = 0;
     for (const double r : receivers.range_m) {
         if (!(r > 0)) continue;
-        range_m_.push_back(r);
-        surface_m_.push_back(static_cast<float>(sea.surface.depth_at(r)));
-        bottom_m_.push_back(static_cast<float>(sea.bottom.depth_at(r)));
-        const auto step_m = static_cast<float>(least_width_m(sea, r) / steps_per_width);
-        const auto count = static_cast<std::size_t>(std::min(1e9F, span_m / step_m)) + 4;
-        if (coarse && 3 * count < 2 * depths_[0].count()) {
-            const bool again = depths_.size() > 1 && depths_.back().count() == count;
-            if (!again) depths_.emplace_back(top_m - step_m, step_m, count);
-            grid_.push_back(static_cast<std::uint32_t>(depths_.size() - 1));
-        } else {
-            grid_.push_back(0);
-        }
-        offset_.push_back(cells_);
-        cells_ += depths(range_m_.size() - 1).stride();
+        for (; probe < probe_m.size() && probe_m[probe] < r; ++probe)
+            add_probe(sea, probe_m[probe]);
+        add_receivers(sea, r, coarse);
     }
-    for (std::size_t k = 0; k < range_m_.size(); ++k)
-        views_.push_back({depths(k).data(), depths(k).finder(), surface_m_[k], bottom_m_[k],
-                          offset_[k], range_m_[k], 1 / range_m_[k]});
+    add_twins();
+    for (View& view : views_) {
+        view.depth_m = depths_[view.grid].data();
+        view.finder = depths_[view.grid].finder();
+    }
+}
+
+void Columns::add(const RaySea& sea, double range_m, std::size_t grid) {
+    range_m_.push_back(range_m);
+    views_.push_back({nullptr,
+                      {},
+                      static_cast<float>(sea.surface.depth_at(range_m)),
+                      static_cast<float>(sea.bottom.depth_at(range_m)),
+                      cells_,
+                      grid,
+                      range_m,
+                      1 / range_m,
+                      0});
+    cells_ += depths_[grid].stride();
+}
+
+/// Steps of fewer depths hang on their number alone.
+void Columns::add_receivers(const RaySea& sea, double range_m, bool coarse) {
+    const Depths& own = depths_[0];
+    const float top_m = own.top_m(), span_m = own.data()[own.count() - 1] - top_m;
+    const auto wanted_m = static_cast<float>(least_width_m(sea, range_m) / steps_per_width);
+    const auto steps = static_cast<std::size_t>(std::min(1e9F, span_m / wanted_m)) + 1;
+    const std::size_t count = steps + 3;
+    std::size_t grid = 0;
+    if (coarse && 3 * count < 2 * own.count()) {
+        if (coarse_ == 0 || depths_[coarse_].count() != count) {
+            const float step_m = span_m / static_cast<float>(steps);
+            depths_.emplace_back(top_m - step_m, step_m, count);
+            coarse_ = depths_.size() - 1;
+        }
+        grid = coarse_;
+    }
+    receivers_.push_back(range_m_.size());
+    add(sea, range_m, grid);
+    cells_of_receivers_ += depths_[grid].stride();
+}
+
+void Columns::add_probe(const RaySea& sea, double range_m) {
+    const auto top_m = static_cast<float>(sea.surface.depth_at(range_m));
+    const auto height_m = static_cast<float>(sea.bottom.depth_at(range_m)) - top_m;
+    if (!(height_m > 0)) return;
+    const float step_m = height_m / static_cast<float>(depths_of_probe);
+    depths_.emplace_back(top_m + step_m / 2, step_m, depths_of_probe);
+    probes_.push_back(range_m_.size());
+    add(sea, range_m, depths_.size() - 1);
+}
+
+void Columns::add_twins() {
+    for (const std::size_t probe : probes_) {
+        views_[probe].twin = views_.size();
+        views_.push_back(views_[probe]);
+        views_.back().offset = cells_;
+        cells_ += depths(probe).stride();
+    }
 }
 
 /// Cubic interpolation (Lagrange) between four depths.
 void Columns::at_receivers(std::size_t column, const float* sums, float* out) const {
     const Depths& from = depths(column);
     const Depths& to = depths_[0];
-    if (grid_[column] == 0) {
+    if (views_[column].grid == 0) {
         std::copy_n(sums, to.count(), out);
         return;
     }

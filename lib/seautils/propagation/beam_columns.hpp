@@ -16,6 +16,10 @@ namespace seautils::propagation {
 class Depths {
 public:
     static constexpr std::size_t grain = 4, run_past = 4;
+    /// What so many depths take.
+    static std::size_t padded(std::size_t count) {
+        return (count + grain - 1) / grain * grain + run_past;
+    }
 
     /// @param depth_m  grows; 1 at least
     explicit Depths(const std::vector<double>& depth_m);
@@ -60,44 +64,58 @@ private:
     std::vector<std::uint32_t> bin_;
 };
 
-/// Receivers as beams meet them: columns, each with the depths at which beams are added there.
-/// Where no beam is narrow those are fewer than the receivers', and the loss in between is
-/// interpolated.
+/// Where beams are met: columns, each with the depths at which beams are added there. Those of
+/// receivers have fewer than these where no beam is narrow; the loss in between is interpolated.
+/// Probes are columns besides, from surface to bottom, each with a twin for a fan half as dense.
 class Columns {
 public:
+    static constexpr std::size_t depths_of_probe = 48;
+
     /// @param receivers  ranges and depths grow
-    /// @param beam       where it is Gaussian, no narrower than least_width_m() tells
-    Columns(const RaySea& sea, const Receivers& receivers, const FieldOptions& options);
+    /// @param options    where beams are Gaussian, they are no narrower than least_width_m() tells
+    /// @param probe_m    ranges, which grow; what lies beyond the receivers is left out
+    Columns(const RaySea& sea, const Receivers& receivers, const FieldOptions& options,
+            const std::vector<double>& probe_m);
     Columns(const Columns&) = delete;  // views point into it
     Columns& operator=(const Columns&) = delete;
 
-    const std::vector<double>& range_m() const { return range_m_; }  ///< those above 0
-    const Depths& depths(std::size_t column) const { return depths_[grid_[column]]; }
-    std::size_t offset(std::size_t column) const { return offset_[column]; }
+    /// Of all columns; those above 0.
+    const std::vector<double>& range_m() const { return range_m_; }
+    /// Columns of receivers at ranges above 0, in their order; of probes.
+    const std::vector<std::size_t>& receivers() const { return receivers_; }
+    const std::vector<std::size_t>& probes() const { return probes_; }
+
+    const Depths& depths(std::size_t column) const { return depths_[views_[column].grid]; }
     /// All of a column that a beam asks for.
     struct View {
         const float* depth_m;
         Depths::Finder finder;
         float surface_m, bottom_m;
-        std::size_t offset;
+        std::size_t offset, grid;
         double range_m, per_range;  ///< and 1 over it
+        std::size_t twin;           ///< a column at the same range; 0: none
     };
     const View& view(std::size_t column) const { return views_[column]; }
+    std::size_t offset(std::size_t column) const { return views_[column].offset; }
+    /// Of all columns and twins; of receivers.
     std::size_t cells() const { return cells_; }
-    float surface_m(std::size_t column) const { return surface_m_[column]; }
-    float bottom_m(std::size_t column) const { return bottom_m_[column]; }
+    std::size_t cells_of_receivers() const { return cells_of_receivers_; }
 
-    /// The sums of a column at its receivers' depths.
+    /// The sums of a receivers' column at their depths.
     void at_receivers(std::size_t column, const float* sums, float* out) const;
 
 private:
+    void add(const RaySea& sea, double range_m, std::size_t grid);
+    void add_receivers(const RaySea& sea, double range_m, bool coarse);
+    void add_probe(const RaySea& sea, double range_m);
+    void add_twins();
+
     std::vector<double> range_m_;
     std::vector<Depths> depths_;  ///< first the receivers' own
-    std::vector<std::uint32_t> grid_;
-    std::vector<std::size_t> offset_;
-    std::vector<float> surface_m_, bottom_m_;
-    std::vector<View> views_;
-    std::size_t cells_ = 0;
+    std::vector<View> views_;     ///< of columns, then of twins
+    std::vector<std::size_t> receivers_, probes_;
+    std::size_t coarse_ = 0;  ///< the last grid of fewer depths
+    std::size_t cells_ = 0, cells_of_receivers_ = 0;
 };
 
 /// A Gaussian beam is no narrower than this, spec §7: min(0.2 f τ, πλ).

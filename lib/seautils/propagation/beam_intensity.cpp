@@ -58,8 +58,9 @@ IntensitySum::IntensitySum(const RaySea& sea, const Columns& columns, const Beam
     least_per_m_ = static_cast<float>(least_width_m(sea, 1e-9) * 1e9);
 }
 
-SEAUTILS_INLINED void IntensitySum::meet(const EnergyArc& arc, const EnergyState& state,
-                                         std::size_t column) {
+/// @param share  of the fan that the beam stands for, in beams
+SEAUTILS_INLINED void IntensitySum::put(const EnergyArc& arc, const EnergyState& state,
+                                        std::size_t column, double share) {
     const Columns::View& view = columns_.view(column);
     const double along_m = view.range_m - state.range_m;
     const double q = std::abs(state.q + state.p * double{arc.spread_per_m} * along_m);
@@ -74,28 +75,39 @@ SEAUTILS_INLINED void IntensitySum::meet(const EnergyArc& arc, const EnergyState
     spots_.depth_m[k] = arc.depth_m;
     spots_.speed_mps[k] = arc.speed_mps + arc.range_gradient * along;
     spots_.gradient[k] = arc.depth_gradient;
-    spots_.width_m[k] = static_cast<float>(width_per_q_ * q);
+    spots_.width_m[k] = static_cast<float>(share * width_per_q_ * q);
     spots_.path_m[k] = static_cast<float>(state.length_m + double{arc.length_per_m} * along_m);
     spots_.energy[k] =
-        static_cast<float>(energy_ * state.amplitude * state.amplitude * view.per_range);
+        static_cast<float>(share * energy_ * state.amplitude * state.amplitude * view.per_range);
     if (spots_.count == Spots::most) flush();
 }
 
-void IntensitySum::add(const Launch& launch) {
-    forgotten_.forget();
-    add(launch, forgotten_);
+void IntensitySum::put_twin(const EnergyArc& arc, const EnergyState& state, std::size_t column) {
+    put(arc, state, column, 2);
 }
 
-void IntensitySum::add(const Launch& launch, KeptRay& ray) {
-    const auto& ranges = columns_.range_m();
-    if (ranges.empty() || launch.level == 0) return;
+SEAUTILS_INLINED void IntensitySum::meet(const EnergyArc& arc, const EnergyState& state,
+                                         std::size_t column) {
+    put(arc, state, column, 1);
+    const std::size_t twin = columns_.view(column).twin;
+    if (twin != 0 && even_) put_twin(arc, state, twin);
+}
+
+void IntensitySum::add(const Launch& launch, bool even) {
+    forgotten_.forget();
+    add(launch, even, forgotten_);
+}
+
+void IntensitySum::add(const Launch& launch, bool even, KeptRay& ray) {
+    even_ = even;
+    if (columns_.range_m().empty() || launch.level == 0) return;
     double level = launch.level;
     if (kind_.sum == Sum::semi_coherent)
         level *= std::numbers::sqrt2 * std::sin(2 * pi * sea_.frequency_hz * sea_.source_depth_m *
                                                 std::sin(launch.angle_rad) / sea_.source_speed_mps);
     energy_ = level * level * launch.cosine * launch.spacing_rad / sea_.source_speed_mps;
     width_per_q_ = launch.spacing_rad / sea_.source_speed_mps;
-    walk_.run(ray, launch.angle_rad, ranges,
+    walk_.run(ray, launch.angle_rad, columns_.range_m(),
               [&](const EnergyArc& arc, const EnergyState& state, std::size_t column) {
                   meet(arc, state, column);
               });
@@ -169,8 +181,8 @@ SEAUTILS_INLINED void IntensitySum::spread_all() {
 
 void IntensitySum::flush() {
 #if defined(__x86_64__)
-    static const bool wide = __builtin_cpu_supports("avx2");
-    wide ? spread_all_wide() : spread_all();
+    static const bool is_wide = __builtin_cpu_supports("avx2");
+    kind_.wide&& is_wide ? spread_all_wide() : spread_all();
 #else
     spread_all();
 #endif

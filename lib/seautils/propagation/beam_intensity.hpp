@@ -31,9 +31,10 @@ public:
     IntensitySum(const RaySea& sea, const Columns& columns, const BeamKind& kind);
 
     /// Traces the ray of an angle and adds its beam.
-    /// @param ray  what is known of the ray, and is known afterwards
-    void add(const Launch& launch, KeptRay& ray);
-    void add(const Launch& launch);
+    /// @param even  every second beam of the fan: twins of columns take it for two
+    /// @param ray   what is known of the ray, and is known afterwards
+    void add(const Launch& launch, bool even, KeptRay& ray);
+    void add(const Launch& launch, bool even);
     void add(const IntensitySum& other);
     /// After the last beam.
     void finish() { flush(); }
@@ -43,6 +44,8 @@ public:
 
 private:
     void meet(const EnergyArc& arc, const EnergyState& state, std::size_t column);
+    void put(const EnergyArc& arc, const EnergyState& state, std::size_t column, double share);
+    void put_twin(const EnergyArc& arc, const EnergyState& state, std::size_t column);
     void flush();
     void spread_all();
     void spread_all_wide();
@@ -57,6 +60,7 @@ private:
     KeptRay forgotten_;      // of a ray that is not kept: its room
     std::uint64_t cut_ = 0;  // by others
     Spots spots_;
+    bool even_ = false;                            // of the ray under way
     double energy_ = 0, width_per_q_ = 0;          // of the ray under way
     float least_per_m_ = 0, least_at_most_m_ = 0;  // width of a beam over its path; 0 of hats
     std::vector<float> sum_;

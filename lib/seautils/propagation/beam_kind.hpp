@@ -19,6 +19,7 @@ struct BeamKind {
     double width_factor = 1;
     /// What of a beam wider than least_width_m() would lie outside the water is mirrored into it.
     bool mirrored = false;
+    bool wide = true;  ///< by vectors of eight, where the processor has them: the sums are the same
 };
 
 /// One beam of a fan.

@@ -56,10 +56,11 @@ void PressureSum::add_evenly(const Spot& spot, bool hat, double n, double depth_
 PressureSum::PressureSum(const RaySea& sea, const Columns& columns, const BeamKind& kind)
     : sea_(sea), columns_(columns), kind_(kind), walk_(sea, kind.legs), sum_(columns.cells()) {}
 
-void PressureSum::add(const Launch& launch) {
+void PressureSum::add(const Launch& launch, bool even) {
     const auto& ranges = columns_.range_m();
     if (ranges.empty() || launch.level == 0) return;
     launch_ = launch;
+    even_ = even;
     std::size_t column = 0;
     walk_.run<BeamState>(launch.angle_rad, ranges.back(), kind_.least_amplitude,
                          [&](const Leg& leg, const BeamState& state) {
@@ -73,7 +74,14 @@ void PressureSum::add(const Launch& launch) {
 }
 
 void PressureSum::meet(const Leg& leg, const BeamState& state, std::size_t column) {
-    const double range_m = columns_.range_m()[column];
+    put(leg, state, column, 1);
+    const std::size_t twin = columns_.view(column).twin;
+    if (twin != 0 && even_) put(leg, state, twin, 2);
+}
+
+/// @param share  of the fan that the beam stands for, in beams
+void PressureSum::put(const Leg& leg, const BeamState& state, std::size_t column, double share) {
+    const double range_m = columns_.view(column).range_m;
     const Advance at = leg.part(range_m - state.range_m);
     if (kind_.baffle_from_sine < kind_.baffle_to_sine && at.sine >= kind_.baffle_from_sine &&
         at.sine <= kind_.baffle_to_sine)
@@ -84,7 +92,7 @@ void PressureSum::meet(const Leg& leg, const BeamState& state, std::size_t colum
     if (!(std::abs(q) < 1e15) || q == 0) return;
     const bool hat = kind_.beam == Beam::hat;
     const double length_m = state.length_m + at.length_m;
-    const double between_m = std::abs(q) * launch_.spacing_rad / sea_.source_speed_mps;
+    const double between_m = share * std::abs(q) * launch_.spacing_rad / sea_.source_speed_mps;
     const double width_m =
         hat ? between_m : std::max(kind_.width_factor * between_m, least_width_m(sea_, length_m));
     const double across = std::max(std::abs(at.cosine), 1e-5);

@@ -17,7 +17,8 @@ public:
     PressureSum(const RaySea& sea, const Columns& columns, const BeamKind& kind);
 
     /// Traces the ray of an angle and adds its beam.
-    void add(const Launch& launch);
+    /// @param even  every second beam of the fan: twins of columns take it for two
+    void add(const Launch& launch, bool even);
     void add(const PressureSum& other);
     void finish() {}                                          // as of IntensitySum
     std::uint64_t cut() const { return cut_ + walk_.cut(); }  ///< rays ended for their legs
@@ -29,6 +30,7 @@ public:
 private:
     struct Spot;
     void meet(const Leg& leg, const BeamState& state, std::size_t column);
+    void put(const Leg& leg, const BeamState& state, std::size_t column, double share);
     void spread(const Spot& spot, std::size_t column);
     static void add_evenly(const Spot& spot, bool hat, double n, double depth_m, double step_m,
                            std::complex<float>* out, const std::complex<float>* end);
@@ -38,7 +40,8 @@ private:
     BeamKind kind_;
     BeamWalk walk_;
     std::uint64_t cut_ = 0;  // by others
-    Launch launch_;          // of the ray under way
+    Launch launch_;          // of the ray under way, and
+    bool even_ = false;      // as add() has it
     std::vector<std::complex<float>> sum_;
 };
 

@@ -32,8 +32,8 @@ class FieldComputer {
 public:
     /// A shelf takes 20,000.
     static constexpr std::size_t default_legs = 130'000;
-    /// @param most_legs  of rays, 80 bytes each
-    explicit FieldComputer(std::size_t most_legs = default_legs) : rays_(most_legs) {}
+    /// @param legs  of rays, at most, of 100 bytes each
+    explicit FieldComputer(std::size_t legs = default_legs) : rays_(legs) {}
 
     Field compute(const Environment& environment, Engine engine, const FieldOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include "seautils/propagation/beam_intensity.hpp"
 #include "seautils/propagation/beam_pressure.hpp"
+#include "seautils/propagation/column_store.hpp"
 #include "seautils/propagation/ray_fan.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <thread>
 
@@ -19,8 +21,13 @@ namespace {
 
 /// Beams are added in so many blocks, each on its own, then block to block: the sums are the same
 /// whatever the number of threads. Fewer where the grid is large.
+constexpr std::size_t most_blocks = 8;
 std::size_t blocks_of(std::size_t cells) {
-    return std::clamp<std::size_t>(4'000'000 / (cells + 1), 2, 8);
+    return std::clamp<std::size_t>(4'000'000 / (cells + 1), 2, most_blocks);
+}
+/// At which beams are added.
+std::size_t most_cells(const Receivers& receivers) {
+    return receivers.range_m.size() * Depths::padded(receivers.depth_m.size());
 }
 
 /// Runs work(block) for each block; the blocks are shared out to threads as they come free.
@@ -59,7 +66,7 @@ Sums add_beams(std::vector<Sums> sums, std::size_t beams, std::uint32_t threads,
 
 template <class Sums>
 std::vector<Sums> empty_sums(const RaySea& sea, const Columns& columns, const BeamKind& kind) {
-    const std::size_t blocks = blocks_of(columns.cells());
+    const std::size_t blocks = blocks_of(columns.cells_of_receivers());
     std::vector<Sums> sums;
     sums.reserve(blocks);
     for (std::size_t k = 0; k < blocks; ++k) sums.emplace_back(sea, columns, kind);
@@ -78,36 +85,86 @@ Field empty_field(const Environment& environment, const FieldOptions& options) {
     return field;
 }
 
-/// Calls set(depth, its place in the field) for the depths of a column that lie in the water.
+/// Receivers of which columns are computed: some of a field's, none at range 0.
+struct Part {
+    Receivers receivers;
+    std::vector<std::size_t> place;  ///< of each range in the field
+};
+
+/// All receivers but those of which `skip(range, its place)` says so.
+template <class Skip>
+Part part_of(const Receivers& receivers, const Skip& skip) {
+    Part part;
+    part.receivers.depth_m = receivers.depth_m;
+    for (std::size_t k = 0; k < receivers.range_m.size(); ++k) {
+        const double range_m = receivers.range_m[k];
+        if (!(range_m > 0) || skip(range_m, k)) continue;
+        part.receivers.range_m.push_back(range_m);
+        part.place.push_back(k);
+    }
+    return part;
+}
+
+/// Calls set(depth, its place in the field) for the depths at a range that lie in the water.
 template <class Set>
-void for_each_wet(const Field& field, const Environment& environment, const Columns& columns,
-                  std::size_t column, const Set& set) {
-    const std::size_t dry = field.ranges - columns.range_m().size();
-    const float surface_m = columns.surface_m(column), bottom_m = columns.bottom_m(column);
-    for (std::size_t k = 0; k < field.depths; ++k) {
-        const auto depth_m = static_cast<float>(environment.receivers.depth_m[k]);
-        if (depth_m >= surface_m && depth_m <= bottom_m) set(k, k * field.ranges + column + dry);
+void for_each_wet(const Field& field, const Environment& environment, const RaySea& sea,
+                  std::size_t range, const Set& set) {
+    const double range_m = environment.receivers.range_m[range];
+    const auto surface_m = static_cast<float>(sea.surface.depth_at(range_m));
+    const auto bottom_m = static_cast<float>(sea.bottom.depth_at(range_m));
+    for (std::size_t depth = 0; depth < field.depths; ++depth) {
+        const auto depth_m = static_cast<float>(environment.receivers.depth_m[depth]);
+        if (depth_m >= surface_m && depth_m <= bottom_m) set(depth, depth * field.ranges + range);
     }
 }
 
-void fill(Field& field, const Environment& environment, const Columns& columns,
-          const IntensitySum& sum) {
-    std::vector<float> intensity(field.depths);
-    for (std::size_t column = 0; column < columns.range_m().size(); ++column) {
-        columns.at_receivers(column, sum.column(column), intensity.data());
-        for_each_wet(field, environment, columns, column, [&](std::size_t depth, std::size_t to) {
-            field.loss_db[to] = -10 * std::log10(intensity[depth]);
-        });
-    }
+void put_intensity(Field& field, const Environment& environment, const RaySea& sea,
+                   std::size_t range, const float* intensity) {
+    for_each_wet(field, environment, sea, range, [&](std::size_t depth, std::size_t to) {
+        field.loss_db[to] = -10 * std::log10(intensity[depth]);
+    });
 }
 
-void fill(Field& field, const Environment& environment, const Columns& columns,
-          const PressureSum& sum) {
-    for (std::size_t column = 0; column < columns.range_m().size(); ++column)
-        for_each_wet(field, environment, columns, column, [&](std::size_t depth, std::size_t to) {
-            field.pressure[to] = sum.column(column)[depth];
-            field.loss_db[to] = -10 * std::log10(std::norm(field.pressure[to]));
-        });
+void put_pressure(Field& field, const Environment& environment, const RaySea& sea,
+                  std::size_t range, const std::complex<float>* pressure) {
+    for_each_wet(field, environment, sea, range, [&](std::size_t depth, std::size_t to) {
+        field.pressure[to] = pressure[depth];
+        field.loss_db[to] = -10 * std::log10(std::norm(pressure[depth]));
+    });
+}
+
+/// Where the error of a fan is looked at, over its reach: receivers go at least as far as the last.
+constexpr double probe_shares[]{0.15, 0.3, 0.45, 0.6, 0.75};
+constexpr double most_estimate_db = 20;
+
+float intensity_of(float intensity) { return intensity; }
+float intensity_of(std::complex<float> pressure) { return std::norm(pressure); }
+
+/// The error of 95 % of the cells, from the twins of probes: what a fan half as dense makes of them.
+/// Next to folds, where most is amiss, a beam blurs an edge, and twice the blur is twice as wrong:
+/// from half the fan to this one it is as far as from this one to the truth.
+template <class Sums>
+double estimated_error_db(const Columns& columns, const Sums& sums) {
+    std::vector<double> error_db;
+    for (const std::size_t probe : columns.probes())
+        for (std::size_t k = 0; k < Columns::depths_of_probe; ++k) {
+            const float fine = intensity_of(sums.column(probe)[k]);
+            const float coarse = intensity_of(sums.column(columns.view(probe).twin)[k]);
+            if (!(fine > 0)) continue;
+            const double apart_db =
+                coarse > 0 ? 10 * std::log10(double{coarse} / double{fine}) : most_estimate_db;
+            error_db.push_back(std::abs(apart_db));
+        }
+    if (error_db.empty()) return 0;
+    const auto at = error_db.begin() + static_cast<std::ptrdiff_t>(error_db.size() * 19 / 20);
+    std::nth_element(error_db.begin(), at, error_db.end());
+    return std::min(*at, most_estimate_db);
+}
+
+std::vector<double> probes(double reach_m) {
+    std::vector<double> out;
+    for (const double share : probe_shares) out.push_back(share * reach_m);
+    return out;
 }
 
 /// Receivers and title aside.
@@ -115,6 +172,12 @@ bool is_same_sea(const Environment& a, const Environment& b) {
     return a.frequency_hz == b.frequency_hz && a.source == b.source && a.water == b.water &&
            a.surface == b.surface && a.surface_line == b.surface_line && a.bottom == b.bottom &&
            a.bottom_depth_m == b.bottom_depth_m && a.bottom_line == b.bottom_line && a.fan == b.fan;
+}
+
+/// Threads aside.
+bool are_same(const FieldOptions& a, const FieldOptions& b) {
+    return a.sum == b.sum && a.beam == b.beam && a.least_amplitude == b.least_amplitude &&
+           a.baffle_from_deg == b.baffle_from_deg && a.baffle_to_deg == b.baffle_to_deg;
 }
 
 /// Seas that are kept; profiles of a few instances come by turns.
@@ -128,17 +191,18 @@ constexpr double marks_of_ray = 24;
 /// A sea and a fan, and what is known of the fan's rays.
 struct RayFields::Kept {
     Environment environment;  ///< without receivers
-    Sum sum;
-    Beam beam;
-    double reach_m;
+    FieldOptions options;     ///< threads do not count
+    double reach_m = 0;
     std::vector<std::string> remarks;
     RaySea sea;
-    double spacing_rad;
+    double spacing_rad = 0;
     std::vector<Launch> fan;
     std::vector<KeptRay> rays;  ///< as many; none before the sea comes again
+    ColumnStore columns;
+    std::map<double, double> error_db;  ///< estimated, by reach
 
     bool is_of(const Environment& e, const FieldOptions& o) const {
-        return sum == o.sum && beam == o.beam && is_same_sea(environment, e) &&
+        return are_same(options, o) && is_same_sea(environment, e) &&
                (sea.strip_edge_m.size() == 2 || reach_m == propagation::reach_m(e)) &&
                spacing_rad == fan_spacing_rad(e, sea, o);
     }
@@ -165,9 +229,11 @@ RayFields::Kept& RayFields::kept(const Environment& environment, const FieldOpti
             again.rays.resize(beams);
         return again;
     }
-    auto now = std::make_unique<Kept>(
-        Kept{environment, options.sum, options.beam, reach_m(environment), {}, {}, 0, {}, {}});
+    auto now = std::make_unique<Kept>();
+    now->environment = environment;
     now->environment.receivers = {};
+    now->options = options;
+    now->reach_m = reach_m(environment);
     now->sea = make_ray_sea(environment, now->remarks);
     now->spacing_rad = fan_spacing_rad(environment, now->sea, options);
     now->fan = make_fan(environment, now->sea, options);
@@ -183,39 +249,99 @@ void RayFields::drop() {
     kept_.resize(seas);
 }
 
+/// A field under way: what is to be computed of it, and of what.
+struct RayFields::Work {
+    Work(Kept& kept, const Environment& e, const FieldOptions& o, Part wanted)
+        : known(kept),
+          options(o),
+          reach(reach_m(e)),
+          is_estimated(kept.error_db.contains(reach)),
+          part(std::move(wanted)),
+          columns(kept.sea, part.receivers, o,
+                  is_estimated ? std::vector<double>{} : probes(reach)),
+          kind(beam_kind(e, o)) {
+        kind.legs = legs_of_ray(beams());
+    }
+
+    std::size_t beams() const { return known.fan.size(); }
+
+    /// All beams; what there is to say of them goes to the basis, and the estimate to what is known.
+    template <class Sums, class Add>
+    Sums add(Basis& basis, const Add& add_beam) const {
+        Sums sums = add_beams(empty_sums<Sums>(known.sea, columns, kind), beams(), options.threads,
+                              add_beam);
+        if (sums.cut() > 0)
+            basis.remarks.push_back(
+                fmt::format("{} of {} rays ended after {} legs", sums.cut(), beams(), kind.legs));
+        if (!is_estimated) known.error_db[reach] = estimated_error_db(columns, sums);
+        return sums;
+    }
+
+    Kept& known;
+    const FieldOptions& options;
+    double reach;
+    bool is_estimated;
+    Part part;
+    Columns columns;
+    BeamKind kind;
+};
+
 Field RayFields::field(const Environment& environment, const FieldOptions& options) {
     Kept& known = kept(environment, options);
-    const RaySea& sea = known.sea;
-    const std::size_t beams = known.fan.size();
     Field field = empty_field(environment, options);
     field.basis.remarks = known.remarks;
-    field.basis.beams = beams;
-    const Columns columns(sea, environment.receivers, options);
-    BeamKind kind = beam_kind(environment, options);
-    kind.legs = legs_of_ray(beams);
-    const auto fill_from = [&](const auto& sums) {
-        if (sums.cut() > 0)
-            field.basis.remarks.push_back(
-                fmt::format("{} of {} rays ended after {} legs", sums.cut(), beams, kind.legs));
-        fill(field, environment, columns, sums);
-    };
+    field.basis.beams = known.fan.size();
     drop();
-    if (options.sum == Sum::coherent) {
-        const auto add = [&](PressureSum& sums, std::size_t k) { sums.add(known.fan[k]); };
-        fill_from(
-            add_beams(empty_sums<PressureSum>(sea, columns, kind), beams, options.threads, add));
-        return field;
-    }
-    if (!known.rays.empty()) kind.mark_every_m = reach_m(environment) / marks_of_ray;
-    const std::size_t most_of_ray = known.rays.empty() ? 0 : most_legs_ / beams - legs_of_empty_ray;
-    const auto add = [&](IntensitySum& sums, std::size_t k) {
-        if (known.rays.empty()) return sums.add(known.fan[k]);
-        KeptRay& ray = known.rays[k];
-        sums.add(known.fan[k], ray);
-        if (ray.size() > most_of_ray) ray.clear();
-    };
-    fill_from(add_beams(empty_sums<IntensitySum>(sea, columns, kind), beams, options.threads, add));
+    if (options.sum == Sum::coherent)
+        add_pressures(known, environment, options, field);
+    else
+        add_intensities(known, environment, options, field);
+    field.basis.estimated_error_db = known.error_db[reach_m(environment)];
     return field;
+}
+
+void RayFields::add_pressures(Kept& known, const Environment& environment,
+                              const FieldOptions& options, Field& field) {
+    const Work work(known, environment, options,
+                    part_of(environment.receivers, [](double, std::size_t) { return false; }));
+    const auto sums = work.add<PressureSum>(
+        field.basis, [&](PressureSum& sum, std::size_t k) { sum.add(known.fan[k], k % 2 == 0); });
+    for (std::size_t k = 0; k < work.part.place.size(); ++k)
+        put_pressure(field, environment, known.sea, work.part.place[k],
+                     sums.column(work.columns.receivers()[k]));
+}
+
+/// Columns that are known are not computed again. They are kept where beams are summed in as many
+/// blocks as they would be alone, and no earlier than rays are.
+void RayFields::add_intensities(Kept& known, const Environment& environment,
+                                const FieldOptions& options, Field& field) {
+    const Receivers& receivers = environment.receivers;
+    const bool keeps = !known.rays.empty() && known.error_db.contains(reach_m(environment)) &&
+                       blocks_of(most_cells(receivers)) == most_blocks;
+    if (keeps) known.columns.open(receivers.depth_m);
+    Work work(known, environment, options, part_of(receivers, [&](double range_m, std::size_t at) {
+                  const float* column = keeps ? known.columns.find(range_m) : nullptr;
+                  if (column != nullptr) put_intensity(field, environment, known.sea, at, column);
+                  return column != nullptr;
+              }));
+    if (work.part.place.empty()) return;
+    if (!known.rays.empty()) work.kind.mark_every_m = work.reach / marks_of_ray;
+    const std::size_t most_of_ray =
+        known.rays.empty() ? 0 : most_legs_ / work.beams() - legs_of_empty_ray;
+    const auto sums = work.add<IntensitySum>(field.basis, [&](IntensitySum& sum, std::size_t k) {
+        if (known.rays.empty()) return sum.add(known.fan[k], k % 2 == 0);
+        KeptRay& ray = known.rays[k];
+        sum.add(known.fan[k], k % 2 == 0, ray);
+        if (ray.size() > most_of_ray) ray.clear();
+    });
+    std::vector<float> column(field.depths);
+    for (std::size_t k = 0; k < work.part.place.size(); ++k) {
+        const std::size_t at = work.columns.receivers()[k];
+        work.columns.at_receivers(at, sums.column(at), column.data());
+        put_intensity(field, environment, known.sea, work.part.place[k], column.data());
+        if (keeps && sums.cut() == 0)
+            known.columns.put(work.part.receivers.range_m[k], column.data());
+    }
 }
 
 Field ray_field(const Environment& environment, const FieldOptions& options) {

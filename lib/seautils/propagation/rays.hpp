@@ -20,13 +20,14 @@ Field ray_field(const Environment& environment, const FieldOptions& options);
 /// The same fields, one after another, to the same bits, whatever was computed before. Kept of the
 /// last seas is what does not hang on the receivers: the sea in layers, the fan, and of each ray
 /// the legs of its cycle, or where the sea depends on range where it passed the marks. Then rays
-/// begin just before the first receiver. A sea is known again when all numbers of it are the same;
+/// begin just before the first receiver; columns at ranges where they were before, at the same
+/// depths, are not computed at all. A sea is known again when all numbers of it are the same;
 /// rays are kept from its second field on.
 /// Rays of coherent sums are traced from the source.
 class RayFields {
 public:
-    /// @param most_legs  so many are kept, at 80 bytes; 0: nothing is
-    explicit RayFields(std::size_t most_legs);
+    /// @param legs  so many are kept, at 100 bytes; 0: nothing is
+    explicit RayFields(std::size_t legs);
     ~RayFields();
     RayFields(const RayFields&) = delete;
     RayFields& operator=(const RayFields&) = delete;
@@ -37,7 +38,12 @@ public:
 
 private:
     struct Kept;
+    struct Work;
     Kept& kept(const Environment& environment, const FieldOptions& options);
+    void add_pressures(Kept& known, const Environment& environment, const FieldOptions& options,
+                       Field& field);
+    void add_intensities(Kept& known, const Environment& environment, const FieldOptions& options,
+                         Field& field);
     void drop();
 
     std::size_t most_legs_;
