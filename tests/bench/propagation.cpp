@@ -77,6 +77,17 @@ void window_moves(benchmark::State& state, Environment sea) {
     }
 }
 
+/// … and one that moves from column to column of a grid, one new in each.
+void window_slides(benchmark::State& state, Environment sea) {
+    FieldComputer fields;
+    double from_m = 1800;
+    for (auto _ : state) {
+        sea.receivers.range_m = evenly(from_m, from_m + 180, 19);
+        from_m = from_m > 40 ? from_m - 10 : 1800;
+        benchmark::DoNotOptimize(fields.compute(sea, Engine::rays, {}));
+    }
+}
+
 /// The whole grid, each time under another profile.
 void profile_changes(benchmark::State& state, Environment sea) {
     FieldComputer fields;
@@ -88,6 +99,7 @@ void profile_changes(benchmark::State& state, Environment sea) {
 
 BENCHMARK_CAPTURE(window_moves, shelf, shelf())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(window_moves, beach, beach())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(window_slides, shelf, shelf())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(profile_changes, shelf, shelf())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(loss, shelf_incoherent, shelf(), Sum::incoherent)
     ->Arg(1)

@@ -70,7 +70,6 @@ public:
         RayTracer tracer(sea_, launch_rad, stop_m, std::is_same_v<State, BeamState>);
         State state;
         if (tracer.touch_at_launch() != Touch::none) pass(leg_at_launch(sea_, tracer), state);
-        cycle_.clear();
         std::uint64_t left = legs_of_ray_;
         const auto step = [&](const Leg& leg) {
             ++legs_;
@@ -79,24 +78,26 @@ public:
             if (--left == 0) ++cut_;
             return state.amplitude >= least_amplitude && state.range_m < stop_m && left > 0;
         };
-        Leg leg;
+        std::size_t known = 0;
         bool whole = false;
-        while (!whole && tracer.next(leg)) {
+        while (!whole) {
+            if (known == room_.size()) room_.emplace_back();
+            Leg& leg = room_[known];
+            if (!tracer.next(leg)) return;
             finish(sea_, leg);
             if (!step(leg)) return;
             if (!sea_.periodic) continue;
-            cycle_.push_back(leg);
+            ++known;
             whole = tracer.at_start();
         }
-        while (whole)
-            for (const auto& again : cycle_)
-                if (!step(again)) return;
+        for (std::size_t k = 0; step(room_[k]); k = k + 1 < known ? k + 1 : 0) {
+        }
     }
 
 private:
     const RaySea& sea_;
     std::uint64_t legs_of_ray_, legs_ = 0, cut_ = 0;
-    std::vector<Leg> cycle_;
+    std::vector<Leg> room_;  // of a cycle: its legs come first
 };
 
 }  // namespace seautils::propagation
