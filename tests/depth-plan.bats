@@ -300,9 +300,9 @@ END
 @test "depth-plan: a model is asked for what is needed, when it is" {
     run_quiet depth-plan acomms --model ./model --range-step 20 --depth-step 2 <<< "${state/\"y_m\":0\}/\"y_m\":0,\"depth_m\":30\}}"
     assert_equal "$(field '[.depth_m, .stale]' <<< "$output")" '[30,null]'
-    # the window from 150 to 270 m, and as far beyond as ten steps; half of the water's depth in steps, but its ends
+    # the window from 150 to 270 m, and as far beyond as ten steps, in whole steps; half of the water's depth in steps, but its ends
     assert_equal "$(jq -c '[.source.depth_m, .receivers.ranges.start_m, .receivers.ranges.stop_m, .bottom_depth_m, .receivers.depths.count, .loss]' asked)" \
-        '[30,20,470,100,50,true]'
+        '[30,20,480,100,50,true]'
     # the same window again, then one a little on, then one beyond, then another depth of the source
     rm asked
     run_quiet depth-plan acomms --model ./model <<< "$state"$'\n'"$state"$'\n'"${state/150/160}"$'\n'"${state/150/420}"$'\n'"${state/150/420}"

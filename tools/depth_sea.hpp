@@ -182,11 +182,13 @@ private:
         }
     }
 
+    /// Ranges are whole steps: those that a model has computed before come again.
     static void append_receivers(std::string& line, const SeaNeed& need) {
-        const double first_m = std::max(need.window.from_m, need.range_step_m);
-        const double last_m = std::max(need.window.to_m, first_m + need.range_step_m);
-        const double ranges =
-            std::min(std::ceil((last_m - first_m) / need.range_step_m) + 1, 2000.0);
+        const double step = need.range_step_m;
+        const double first = std::max(std::floor(need.window.from_m / step), 1.0);
+        const double last = std::max(std::ceil(need.window.to_m / step), first + 1);
+        const double first_m = first * step, last_m = last * step;
+        const double ranges = std::min(last - first + 1, 2000.0);
         line += ",\"receivers\":{\"ranges\":";
         append_span(line, first_m, last_m, ranges);
         if (need.water_depth_m && *need.water_depth_m > 2 * need.depth_step_m) {

@@ -190,6 +190,37 @@ TEST(Rays, ImagesOfAnIsovelocityChannel) {
     }
 }
 
+/// Of a plane wave-slope the reflected path is the straight one from the source's image in it.
+TEST(Rays, ImageInASlopingSurface) {
+    for (const double slope : {0.02, -0.015}) {
+        Environment sea = lloyd();
+        sea.surface_line = Line{false, {-3000, 3000}, {-3000 * slope, 3000 * slope}};
+        sea.source.depth_m = 60;
+        sea.receivers = {{80}, {700, 1500}};
+        // the mirror image of (0, 60) in the line z = slope·r
+        const double per = 2 / (1 + slope * slope);
+        const double image_r = slope * 60 * per, image_z = 60 - 60 * per;
+        for (const auto& receiver : ray_arrivals(sea, {})) {
+            int reflected = 0;
+            for (const auto& arrival : receiver.arrivals) {
+                if (arrival.surface_bounces != 1 || arrival.bottom_bounces != 0) continue;
+                ++reflected;
+                const double along_m = receiver.range_m - image_r, down_m = 80 - image_z;
+                const double path_m = std::hypot(along_m, down_m);
+                EXPECT_NEAR(arrival.delay_s, path_m / 1500, 1e-9);
+                EXPECT_NEAR(arrival.arrival_deg, std::atan2(down_m, along_m) * 180 / pi, 1e-6);
+                // the plane's spreading is that of the image; around the axis it stays the range's
+                EXPECT_NEAR(arrival.amplitude,
+                            std::sqrt(std::cos(arrival.launch_deg * pi / 180) /
+                                      (path_m * receiver.range_m)),
+                            1e-9);
+                EXPECT_NEAR(arrival.phase_deg, 180, 1e-9);
+            }
+            EXPECT_EQ(reflected, 1);
+        }
+    }
+}
+
 TEST(Rays, ReciprocalUnderASlope) {
     // Time from here to there is time from there to here, also by way of a sloping bottom.
     auto there = channel();
