@@ -130,6 +130,24 @@ TEST(PropagationModes, AgreeWithWavenumbers) {
     expect_engines_agree(e, 1000, "slow bottom");
 }
 
+/// Two ways to one field: they differ by no more than both say that they may be amiss by, twice, and
+/// they do not say much more than that.
+TEST(PropagationModes, EstimatedErrorsHold) {
+    for (const double frequency_hz : {60., 250.}) {
+        Environment e = pekeris();
+        e.frequency_hz = frequency_hz;
+        e.water.profile = {{0, 1515}, {40, 1500}, {100, 1490}};
+        e.receivers.range_m = {};
+        for (int k = 0; k < 200; ++k) e.receivers.range_m.push_back(1000 + 20 * k);
+        const Field modes = mode_field(e, coherent()), waves = wavenumber_field(e, coherent());
+        const double allowed_db =
+            2 * (modes.basis.estimated_error_db + waves.basis.estimated_error_db);
+        EXPECT_LT(difference(e, modes, waves, 0).p95, allowed_db);
+        EXPECT_GT(waves.basis.estimated_error_db, 0);
+        EXPECT_LT(allowed_db, 0.3);
+    }
+}
+
 TEST(PropagationModes, DoNotDependOnHowAProfileIsWritten) {
     Environment e = pekeris();
     e.water.profile = {{0, 1520}, {37, 1480}, {100, 1500}};

@@ -227,8 +227,8 @@ ModeSet find_modes(const Waveguide& guide, double least_xi, std::size_t steps,
         fine.shapes(lanes, u);
         for (std::size_t l = 0; l < polish_lanes && k + l < xi.size(); ++l) {
             Mode mode;
-            const Complex correction = (lanes[l] - xi[k + l]) * extrapolated;
-            mode.xi = lanes[l] + correction;
+            mode.correction = (lanes[l] - xi[k + l]) * extrapolated;
+            mode.xi = lanes[l] + mode.correction;
             if (!std::isfinite(std::abs(mode.xi))) continue;
             shift = lanes[l] - xi[k + l];
             for (const Interpolation& i : at) {

@@ -10,7 +10,8 @@
 namespace seautils::propagation {
 
 struct Mode {
-    std::complex<double> xi;  ///< squared horizontal wavenumber, rad²/m²
+    std::complex<double> xi;          ///< squared horizontal wavenumber, rad²/m²
+    std::complex<double> correction;  ///< by the extrapolation over meshes, which is in it
     /// At the depths asked for, where ∫u² over the water, and what lies beyond it, is 1; 1/√m.
     std::vector<std::complex<double>> values;
 };
@@ -19,8 +20,6 @@ struct Mode {
 struct ModeSet {
     std::vector<Mode> modes;
     std::size_t lost = 0;  ///< starts that led to no mode, or to one already found
-    double most_correction =
-        0;  ///< of a k by the extrapolation, rad/m: of the modes that leak least
 };
 
 /// Eigenvalues of the lossless sea above ξ.

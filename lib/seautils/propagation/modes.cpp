@@ -1,6 +1,7 @@
 #include "seautils/propagation/modes.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/propagation/error_estimate.hpp"
 #include "seautils/propagation/hankel.hpp"
 #include "seautils/propagation/level_sea.hpp"
 #include "seautils/propagation/mode_search.hpp"
@@ -112,9 +113,9 @@ struct Weights {
 /// exp(ikr) of all modes, range by range: turned on where ranges are evenly spaced.
 class Turning {
 public:
-    explicit Turning(const std::vector<Mode>& modes) {
-        for (const Mode& m : modes) {
-            const Complex k = std::sqrt(m.xi);
+    explicit Turning(const std::vector<Complex>& xi) {
+        for (const Complex& x : xi) {
+            const Complex k = std::sqrt(x);
             k_.push_back(k.imag() < 0 ? -k : k);
         }
         turned_.resize(k_.size());
@@ -164,35 +165,85 @@ struct Accumulator {
     }
 };
 
-void sum_modes(Field& field, const Environment& e, const LevelSea& sea,
-               const std::vector<Mode>& modes, Sum sum) {
-    const std::size_t n = sea.depth_m.size();
-    const Weights weights(modes, n);
-    Turning turning(modes);
-    Accumulator total(n);
-    for (std::size_t r = 0; r < e.receivers.range_m.size(); ++r) {
-        const double range = e.receivers.range_m[r];
-        if (range <= 0) continue;
-        turning.to(range);
-        total.clear();
-        for (std::size_t m = 0; m < modes.size(); ++m) {
-            const Complex kr = turning.k(m) * range;
+/// The sum of modes at all depths, at one range after another.
+class ModeSum {
+public:
+    ModeSum(const Weights& weights, const std::vector<Complex>& xi, Sum sum)
+        : weights_(weights), turning_(xi), modes_(xi.size()), sum_(sum), total_(weights.depths) {}
+
+    void to(double range_m) {
+        turning_.to(range_m);
+        total_.clear();
+        const std::size_t n = weights_.depths;
+        for (std::size_t m = 0; m < modes_; ++m) {
+            const Complex kr = turning_.k(m) * range_m;
             if (kr.imag() > forgotten_np) continue;
-            const Complex factor = hankel_over_exp(kr) * turning.turned(m);
-            const float *wr = &weights.re[m * n], *wi = &weights.im[m * n];
-            if (sum == Sum::coherent)
-                total.add(wr, wi, factor);
+            const Complex factor = hankel_over_exp(kr) * turning_.turned(m);
+            const float *wr = &weights_.re[m * n], *wi = &weights_.im[m * n];
+            if (sum_ == Sum::coherent)
+                total_.add(wr, wi, factor);
             else
-                total.add_intensity(wr, wi, std::norm(factor));
-        }
-        for (std::size_t z = 0; z < n; ++z) {
-            const std::size_t cell = sea.rows[z] * field.ranges + r;
-            if (sum == Sum::coherent)
-                put_pressure(field, cell, {total.re[z], total.im[z]});
-            else
-                put_intensity(field, cell, total.re[z]);
+                total_.add_intensity(wr, wi, std::norm(factor));
         }
     }
+    /// A pressure, or an intensity.
+    Complex at(std::size_t depth) const { return {total_.re[depth], total_.im[depth]}; }
+
+private:
+    const Weights& weights_;
+    Turning turning_;
+    std::size_t modes_;
+    Sum sum_;
+    Accumulator total_;
+};
+
+void fill(Field& field, const Environment& e, const LevelSea& sea, ModeSum total, Sum sum) {
+    for (std::size_t r = 0; r < e.receivers.range_m.size(); ++r) {
+        if (e.receivers.range_m[r] <= 0) continue;
+        total.to(e.receivers.range_m[r]);
+        for (std::size_t z = 0; z < sea.depth_m.size(); ++z) {
+            const std::size_t cell = sea.rows[z] * field.ranges + r;
+            if (sum == Sum::coherent)
+                put_pressure(field, cell, total.at(z));
+            else
+                put_intensity(field, cell, total.at(z).real());
+        }
+    }
+}
+
+/// What the wavenumbers are amiss by: no more than the extrapolation over meshes has changed. It is
+/// looked at at a few ranges.
+double estimated_error_db(const std::vector<double>& range_m, std::size_t depths, ModeSum total,
+                          ModeSum before, Sum sum) {
+    constexpr std::size_t few = 6;
+    const auto intensity = [sum](const Complex& x) {
+        return sum == Sum::coherent ? std::norm(x) : x.real();
+    };
+    ErrorEstimate error;
+    for (std::size_t k = 0; k < few; ++k) {
+        const double r = range_m[(k + 1) * (range_m.size() - 1) / few];
+        if (r <= 0) continue;
+        total.to(r);
+        before.to(r);
+        for (std::size_t z = 0; z < depths; ++z)
+            error.add(intensity(total.at(z)), intensity(before.at(z)));
+    }
+    return error.db();
+}
+
+/// Losses, and what they may be amiss by.
+void sum_modes(Field& field, const Environment& e, const LevelSea& sea,
+               const std::vector<Mode>& modes, Sum sum) {
+    const Weights weights(modes, sea.depth_m.size());
+    std::vector<Complex> xi, before;
+    for (const Mode& mode : modes) {
+        xi.push_back(mode.xi);
+        before.push_back(mode.xi - mode.correction);
+    }
+    const ModeSum total(weights, xi, sum);
+    fill(field, e, sea, total, sum);
+    field.basis.estimated_error_db = estimated_error_db(e.receivers.range_m, sea.depth_m.size(),
+                                                        total, ModeSum(weights, before, sum), sum);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "seautils/propagation/beam_intensity.hpp"
 #include "seautils/propagation/beam_pressure.hpp"
 #include "seautils/propagation/column_store.hpp"
+#include "seautils/propagation/error_estimate.hpp"
 #include "seautils/propagation/ray_fan.hpp"
 
 #include <fmt/format.h>
@@ -135,8 +136,6 @@ void put_pressure(Field& field, const Environment& environment, const RaySea& se
 
 /// Where the error of a fan is looked at, over its reach: receivers go at least as far as the last.
 constexpr double probe_shares[]{0.15, 0.3, 0.45, 0.6, 0.75};
-constexpr double most_estimate_db = 20;
-
 float intensity_of(float intensity) { return intensity; }
 float intensity_of(std::complex<float> pressure) { return std::norm(pressure); }
 
@@ -145,20 +144,14 @@ float intensity_of(std::complex<float> pressure) { return std::norm(pressure); }
 /// from half the fan to this one it is as far as from this one to the truth.
 template <class Sums>
 double estimated_error_db(const Columns& columns, const Sums& sums) {
-    std::vector<double> error_db;
-    for (const std::size_t probe : columns.probes())
-        for (std::size_t k = 0; k < Columns::depths_of_probe; ++k) {
-            const float fine = intensity_of(sums.column(probe)[k]);
-            const float coarse = intensity_of(sums.column(columns.view(probe).twin)[k]);
-            if (!(fine > 0)) continue;
-            const double apart_db =
-                coarse > 0 ? 10 * std::log10(double{coarse} / double{fine}) : most_estimate_db;
-            error_db.push_back(std::abs(apart_db));
-        }
-    if (error_db.empty()) return 0;
-    const auto at = error_db.begin() + static_cast<std::ptrdiff_t>(error_db.size() * 19 / 20);
-    std::nth_element(error_db.begin(), at, error_db.end());
-    return std::min(*at, most_estimate_db);
+    ErrorEstimate error;
+    for (const std::size_t probe : columns.probes()) {
+        const auto* fine = sums.column(probe);
+        const auto* coarse = sums.column(columns.view(probe).twin);
+        for (std::size_t k = 0; k < Columns::depths_of_probe; ++k)
+            error.add(double{intensity_of(fine[k])}, double{intensity_of(coarse[k])});
+    }
+    return error.db();
 }
 
 std::vector<double> probes(double reach_m) {

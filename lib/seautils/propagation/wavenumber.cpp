@@ -1,4 +1,5 @@
 #include "seautils/core/error.hpp"
+#include "seautils/propagation/error_estimate.hpp"
 #include "seautils/propagation/hankel.hpp"
 #include "seautils/propagation/level_sea.hpp"
 #include "seautils/propagation/modes.hpp"
@@ -205,9 +206,25 @@ std::size_t steps_of(const Environment& e, const LevelSea& sea, const Contour& c
     return static_cast<std::size_t>(steps);
 }
 
-std::vector<Complex> integrated(const Environment& e, const LevelSea& sea) {
+/// What wraps around, and what the phase of Numerov's scheme is off by at the last range, where it
+/// lags by (κh)⁴/480 of a vertical wavenumber κ: of the steepest wave that the bottom keeps, or of
+/// one at 30°. That three times counts for 95 % of the cells, nulls among them.
+double error_db(const Environment& e, const LevelSea& sea, std::size_t steps) {
+    const double k = std::sqrt(sea.most_k2), slow = sea.guide.omega / k / e.bottom.sound_speed_mps;
+    const bool keeps = e.bottom.kind == BoundaryKind::half_space && slow < 1;
+    const double sine2 = keeps ? 1 - slow * slow : 0.25;
+    const double h = sea.column.height_m() / static_cast<double>(steps);
+    const double off_rad = k * e.receivers.range_m.back() / std::sqrt(1 - sine2 + 1e-3) *
+                           std::pow(sine2, 3) * std::pow(k * h, 4) / 480;
+    return std::min(20 / std::numbers::ln10 * (std::exp(-wrapped_np) + 3 * off_rad),
+                    ErrorEstimate::most_db);
+}
+
+std::vector<Complex> integrated(const Environment& e, const LevelSea& sea, Basis& basis) {
     const Contour c = contour(e, sea);
-    const Mesh mesh(sea.guide, steps_of(e, sea, c));
+    const std::size_t steps = steps_of(e, sea, c);
+    basis.estimated_error_db = error_db(e, sea, steps);
+    const Mesh mesh(sea.guide, steps);
     TwistedRows rows(mesh);
     Green green(mesh, e.source.depth_m, sea.depth_m);
     std::vector<Complex> at_depths(sea.depth_m.size());
@@ -233,7 +250,7 @@ Field wavenumber_field(const Environment& environment, const FieldOptions& optio
         throw DataError("wavenumber: only a coherent sum (modes and rays can)");
     Field field = empty_field(environment, options, Engine::wavenumber);
     if (sea.depth_m.empty()) return field;
-    const std::vector<Complex> pressure = integrated(environment, sea);
+    const std::vector<Complex> pressure = integrated(environment, sea, field.basis);
     const std::size_t depths = sea.depth_m.size();
     for (std::size_t z = 0; z < depths; ++z)
         for (std::size_t r = 0; r < field.ranges; ++r)
