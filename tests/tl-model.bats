@@ -432,6 +432,35 @@ lloyd_env() {
     assert_equal "$(ls tmp)" ''
 }
 
+@test "tl-model: a signal ends the engine of others, too, and leaves nothing" {
+    mkdir tmp
+    export TMPDIR=$PWD/tmp
+    stand_in bellhop 'echo $$ > "$here/pid.new"; mv "$here/pid.new" "$here/pid"; sleep 60'
+    jq -c '{id: 1}' <<< '{}' > request.ndjson
+    for name in TERM INT HUP; do
+        rm -f pid
+        (
+            trap - INT
+            exec tl-model --engine bellhop lloyd.json
+        ) &
+        until [[ -s pid ]]; do sleep 0.02; done
+        assert_equal "$(find tmp -mindepth 1 -maxdepth 1 | wc -l)" 1
+        kill "-$name" $!
+        # a shell in the background makes its children ignore SIGINT: then it is left to end as it would
+        [[ $name == INT ]] && kill -TERM $! 2> /dev/null
+        wait $! && fail "it ended as if nothing had been"
+        assert_equal "$(ls tmp)" ''
+        ! kill -0 "$(cat pid)" 2> /dev/null || fail 'the engine still runs'
+    done
+    # of a stream of requests as of a file
+    rm -f pid
+    tl-model --base lloyd.json --engine bellhop request.ndjson > /dev/null 2>&1 &
+    until [[ -s pid ]]; do sleep 0.02; done
+    kill $!
+    wait $! && fail "it ended as if nothing had been"
+    assert_equal "$(ls tmp)" ''
+}
+
 @test "tl-model: options that are wrong" {
     while IFS='|' read -r options what; do
         # shellcheck disable=SC2086

@@ -34,6 +34,9 @@ struct Command {
         ::_exit(127);
     };
     ::setpgid(0, 0);
+    sigset_t none_wait;
+    ::sigemptyset(&none_wait);
+    ::sigprocmask(SIG_SETMASK, &none_wait, nullptr);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit memory{command.memory_bytes, command.memory_bytes};
     const rlimit none{0, 0};
@@ -56,7 +59,31 @@ void sleep_ms(long ms) {
     ::nanosleep(&left, nullptr);
 }
 
-/// Its status when it has ended; nothing when its time was over, and it was ended.
+/// Signals that would end the process.
+sigset_t ending_signals() {
+    sigset_t all;
+    ::sigemptyset(&all);
+    for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
+        struct sigaction action {};
+        ::sigaction(number, nullptr, &action);
+        if (action.sa_handler != SIG_IGN) ::sigaddset(&all, number);
+    }
+    return all;
+}
+
+/// One of them waits.
+bool is_to_end() {
+    const sigset_t ending = ending_signals();
+    sigset_t waiting;
+    ::sigemptyset(&waiting);
+    ::sigpending(&waiting);
+    for (const int number : {SIGTERM, SIGINT, SIGHUP})
+        if (::sigismember(&waiting, number) == 1 && ::sigismember(&ending, number) == 1)
+            return true;
+    return false;
+}
+
+/// Its status when it has ended; nothing when its time is over, or the process is to end.
 std::optional<int> wait_for(pid_t child, double seconds) {
     double waited_ms = 0;
     int status = 0;
@@ -64,7 +91,7 @@ std::optional<int> wait_for(pid_t child, double seconds) {
         const pid_t ended = ::waitpid(child, &status, WNOHANG);
         if (ended == child) return status;
         if (ended < 0 && errno != EINTR) return std::nullopt;
-        if (waited_ms >= seconds * 1000) return std::nullopt;
+        if (waited_ms >= seconds * 1000 || is_to_end()) return std::nullopt;
         sleep_ms(pause_ms);
         waited_ms += static_cast<double>(pause_ms);
     }
@@ -75,11 +102,14 @@ std::optional<int> wait_for(pid_t child, double seconds) {
 PrivateFolder::PrivateFolder(const std::string& parent) : path_(parent + "/seautils-XXXXXX") {
     if (::mkdtemp(path_.data()) == nullptr)
         throw Error(ExitCode::cannot_create, parent + ": " + std::strerror(errno));
+    const sigset_t ending = ending_signals();
+    ::pthread_sigmask(SIG_BLOCK, &ending, &before_);
 }
 
 PrivateFolder::~PrivateFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 void run_program(const std::vector<std::string>& names, const std::vector<std::string>& arguments,
@@ -114,6 +144,8 @@ void run_program(const std::vector<std::string>& names, const std::vector<std::s
         throw Error(
             ExitCode::unavailable,
             name + ": " + (why == ENOENT ? "no such program is installed" : std::strerror(why)));
+    if (!status && is_to_end())
+        throw Error(ExitCode::try_again, name + " was ended, as this is to end");
     if (!status)
         throw Error(ExitCode::try_again,
                     fmt::format("{} did not end within {} s", name, limits.seconds));
