@@ -28,6 +28,11 @@ enum : std::uint32_t {
     grazing_deg,
     magnitude,
     phase_deg,
+    layer_thickness_m,
+    layer_speed_mps,
+    layer_bottom_speed_mps,
+    layer_density_gcm3,
+    layer_attenuation,
 };
 }
 namespace line {

@@ -140,6 +140,7 @@ private:
             merge_boundary(*s, e.surface);
             if (s->has(field::boundary::grain_phi))
                 throw DataError("surface.grain_phi is for a bottom");
+            if (has_layers(*s)) throw DataError("surface.layer_thickness_m is for a bottom");
         }
         if (const auto b = request.part(field::request::bottom, "bottom")) {
             merge_boundary(*b, e.bottom);
@@ -172,6 +173,7 @@ private:
         p.number(f::attenuation, b.attenuation_db_per_wavelength);
         p.number(f::shear_attenuation, b.shear_attenuation_db_per_wavelength);
         p.number(f::roughness_m, b.roughness_m);
+        if (p.has(f::kind) || has_layers(p)) b.layers = layers_of(p);
         if (!has_table) return;
         const std::vector<double> grazing = p.list(f::grazing_deg), size = p.list(f::magnitude),
                                   phase = p.list(f::phase_deg);
@@ -180,6 +182,37 @@ private:
         b.table.clear();
         for (std::size_t k = 0; k < size.size(); ++k)
             b.table.push_back({grazing[k], size[k], phase[k]});
+    }
+
+    static bool has_layers(const TlPart& p) {
+        namespace f = field::boundary;
+        for (std::uint32_t k = f::layer_thickness_m; k <= f::layer_attenuation; ++k)
+            if (p.has(k)) return true;
+        return false;
+    }
+
+    static std::vector<pg::SedimentLayer> layers_of(const TlPart& p) {
+        namespace f = field::boundary;
+        std::vector<pg::SedimentLayer> layers;
+        for (const double thickness_m : p.list(f::layer_thickness_m))
+            layers.push_back({.thickness_m = thickness_m});
+        const auto fill = [&](std::uint32_t field, const char* name,
+                              double pg::SedimentLayer::*to) {
+            const std::vector<double> values = p.list(field);
+            if (values.empty()) return;
+            p.same(layers.size(), "layer_thickness_m", values.size(), name);
+            for (std::size_t k = 0; k < values.size(); ++k) layers[k].*to = values[k];
+        };
+        using Layer = pg::SedimentLayer;
+        if (!layers.empty() && !p.has(f::layer_speed_mps))
+            throw DataError(p.path + "layer_speed_mps is not given");
+        fill(f::layer_speed_mps, "layer_speed_mps", &Layer::sound_speed_top_mps);
+        fill(f::layer_speed_mps, "layer_speed_mps", &Layer::sound_speed_bottom_mps);
+        fill(f::layer_bottom_speed_mps, "layer_bottom_speed_mps", &Layer::sound_speed_bottom_mps);
+        fill(f::layer_density_gcm3, "layer_density_gcm3", &Layer::density_gcm3);
+        fill(f::layer_attenuation, "layer_attenuation_db_per_wavelength",
+             &Layer::attenuation_db_per_wavelength);
+        return layers;
     }
 
     static std::optional<pg::Line> line_of(const TlPart& p) {
@@ -195,6 +228,7 @@ private:
             e.water.profile.empty() ? 1500 : e.water.profile.back().sound_speed_mps;
         pg::Boundary b = pg::grain_half_space(*grain_, speed_mps, e.water.density_gcm3);
         b.roughness_m = e.bottom.roughness_m;
+        b.layers = e.bottom.layers;
         return b;
     }
 

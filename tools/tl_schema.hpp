@@ -47,7 +47,9 @@ private:
             {choice("kind", kind), real("sound_speed_mps"), real("shear_speed_mps"),
              real("density_gcm3"), real("attenuation_db_per_wavelength"),
              real("shear_attenuation_db_per_wavelength"), real("roughness_m"), real("grain_phi"),
-             reals("grazing_deg"), reals("magnitude"), reals("phase_deg")});
+             reals("grazing_deg"), reals("magnitude"), reals("phase_deg"),
+             reals("layer_thickness_m"), reals("layer_speed_mps"), reals("layer_bottom_speed_mps"),
+             reals("layer_density_gcm3"), reals("layer_attenuation_db_per_wavelength")});
     }
 
     const schema::Layout& add_receivers() {

@@ -94,6 +94,34 @@ TEST(Case, SedimentByItsGrain) {
               "bottom.grain_size_phi is for a bottom of type 'grain-size', below a profile");
 }
 
+TEST(Case, LayersOfABottom) {
+    const auto with = [](const std::string& layers) {
+        return changed("\"bathymetry\"", "\"layers\": " + layers + ", \"bathymetry\"");
+    };
+    const std::vector<SedimentLayer> layers =
+        read_case(with(R"([{"thickness_m": 4, "sound_speed_m_s": 1550, "density_g_cm3": 1.4},
+                           {"thickness_m": 10, "sound_speed_top_m_s": 1600,
+                            "sound_speed_bottom_m_s": 1650, "shear_speed_m_s": 0,
+                            "attenuation_db_per_wavelength": 0.3}])"))
+            .environment.bottom.layers;
+    EXPECT_EQ(layers,
+              (std::vector<SedimentLayer>{{4, 1550, 1550, 1.4, 0}, {10, 1600, 1650, 1.8, 0.3}}));
+    const std::vector<std::pair<std::string, std::string>> all = {
+        {"4", "bottom.layers '4' is not a list"},
+        {"[4]", "bottom.layers[0] is not an object"},
+        {"[{}]", "bottom.layers[0].thickness_m is not given"},
+        {R"([{"thickness_m": "x"}])", "bottom.layers[0].thickness_m '\"x\"' is not a number"},
+        {R"([{"thickness_m": 1}])", "bottom.layers[0].sound_speed_top_m_s is not given"},
+        {R"([{"thickness_m": 1, "sound_speed_m_s": 1500, "sound_speed_top_m_s": 1500}])",
+         "bottom.layers[0].sound_speed_top_m_s is given beside sound_speed_m_s"},
+        {R"([{"thickness_m": 1, "sound_speed_m_s": 1500, "shear_speed_m_s": 90}])",
+         "bottom.layers[0].shear_speed_m_s 90 is not 0 m/s: layers are fluid"},
+        {R"([{"thickness_m": 1, "sound_speed_m_s": 1500, "densty_g_cm3": 1}])",
+         "field 'bottom.layers[0].densty_g_cm3' is not known (did you mean 'density_g_cm3'?)"},
+    };
+    for (const auto& [text, what] : all) EXPECT_EQ(refusal(with(text)), what);
+}
+
 TEST(Case, WhatIsNotKnownIsRemarked) {
     const Case c = read_case(changed("\"box\"", "\"ice_cover\""));
     EXPECT_TRUE(c.remarks.empty());  // null says nothing

@@ -121,6 +121,11 @@ std::string env(const Files& lines) {
     return text;
 }
 
+/// Sediment from 100 to 110 m.
+Files layered(const std::string& rows) {
+    return {{"3", "2"}, {"6", "0 1500 /\n100 1510 /\n0 0.3 110\n" + rows}};
+}
+
 }  // namespace
 
 TEST(EnvFile, ReferenceCasesMeanWhatTheirCaseSays) {
@@ -207,6 +212,49 @@ TEST(EnvFile, RowsInheritWhatTheyLeaveOut) {
     EXPECT_EQ(bottom.environment.bottom.density_gcm3, 1.03);
 }
 
+TEST(EnvFile, MediaBelowTheWaterAreLayers) {
+    const EnvFile file = read(env({{"3", "3"},
+                                   {"4", "'CVM'"},
+                                   {"6",
+                                    "0 1500 /\n100 1510 /\n0 0.3 110\n100 1550 0 1.4 0.2 /\n"
+                                    "104 1600 /\n110 /\n0 0 130\n110 1700 0 1.8 0.4 /\n130 /"},
+                                   {"7", "'A' 0\n130 2000 900 2.1 0.1 0.3 /"}}));
+    const pg::Boundary& b = file.environment.bottom;
+    EXPECT_EQ(file.environment.bottom_depth_m, 100);
+    EXPECT_EQ(b.sound_speed_mps, 2000);
+    EXPECT_EQ(b.shear_speed_mps, 900);
+    EXPECT_EQ(b.roughness_m, 0.3);  // where the water ends
+    ASSERT_EQ(b.layers.size(), 3U);
+    const std::vector<std::vector<double>> wanted{{4, 1550, 1600, 1.4, 0.2 * (1.55 + 1.6) / 2},
+                                                  {6, 1600, 1600, 1.4, 0.2 * 1.6},
+                                                  {20, 1700, 1700, 1.8, 0.4 * 1.7}};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const pg::SedimentLayer& l = b.layers[k];
+        expect_near({l.thickness_m, l.sound_speed_top_mps, l.sound_speed_bottom_mps, l.density_gcm3,
+                     l.attenuation_db_per_wavelength},
+                    wanted[k]);
+    }
+    EXPECT_TRUE(file.remarks.empty());
+}
+
+TEST(EnvFile, DensityThatChangesTakesSteps) {
+    const EnvFile file = read(env(layered("100 1550 0 1.5 /\n110 1600 0 1.6 /")));
+    const std::vector<pg::SedimentLayer>& layers = file.environment.bottom.layers;
+    ASSERT_EQ(layers.size(), 2U);
+    expect_near({layers[0].density_gcm3, layers[1].density_gcm3}, {1.525, 1.575});
+    expect_near({layers[0].thickness_m, layers[0].sound_speed_bottom_mps}, {5, 1575});
+}
+
+TEST(EnvFile, RoughnessBelowLayersIsRemarked) {
+    Files lines = layered("100 1550 /\n110 1600 /");
+    lines["7"] = "'A' 0.1\n110 1700 0 1.8 0.5 /";
+    EXPECT_EQ(read(env(lines)).remarks,
+              (std::vector<std::string>{"the roughness below the first layer is left alone"}));
+    std::string rows = "100 1550 /\n";
+    for (int k = 1; k <= 1001; ++k) rows += std::to_string(100 + k * 0.009) + " /\n";
+    EXPECT_EQ(refusal(env(layered(rows))), "line 1010: the bottom has more than 1000 layers");
+}
+
 TEST(EnvFile, Companions) {
     const EnvFile file = read(env({{"4", "'QFM ~'"},
                                    {"6", "0 1500 /\n50 1505 /\n100 1510 /"},
@@ -256,7 +304,15 @@ TEST(EnvFile, UnitsOfAttenuation) {
 TEST(EnvFile, RefusalsAreLocated) {
     const std::vector<std::pair<Files, std::string>> all = {
         {{{"2", "fast"}}, "line 2: frequency 'fast' is not a number"},
-        {{{"3", "2"}}, "NMEDIA 2 is not 1: layered bottoms are not read"},
+        {{{"3", "0"}}, "line 3: NMEDIA '0' is not a whole number of 1 to 1000000"},
+        {{{"3", "2"}}, "line 8: NMESH 'A' is not a number"},
+        {layered("100 1550 /\n101 1600 90 /"),
+         "line 10: medium 2 has a shear speed of 90 m/s: only the lowest half-space may"},
+        {layered("101 1550 /\n110 1600 /"),
+         "line 9: depth 101 is not the 100 m where medium 2 begins"},
+        {layered("100 1550 /\n100 1600 /"), "line 10: depth 100 is not below the 100 m before it"},
+        {layered("100 1550 /\n111 1600 /"),
+         "line 10: depth 111 is below the 110 m where medium 2 ends"},
         {{{"4", "'XVW'"}}, "line 4: TOPOPT 'XVW    ': letter 1 is none of C, N, P, S, Q"},
         {{{"4", "'CVWB'\n0"}}, "line 4: TOPOPT 'CVWB   ': letter 4 is none of blank, T, F"},
         {{{"4", "'CVW ~'"}}, "TOPOPT asks for a .ati file, which is not there"},

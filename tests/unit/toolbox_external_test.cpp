@@ -283,6 +283,28 @@ TEST(EnvWriter, IsReadAgain) {
     EXPECT_TRUE(back.remarks.empty());
 }
 
+TEST(EnvWriter, LayersAreMediaOfModesAndUnknownToBellhop) {
+    pg::Environment e = sea();
+    e.receivers.range_m = {100, 1000};
+    e.bottom.roughness_m = 0.3;
+    e.bottom.layers = {{4.5, 1500, 1550, 1.4, 0.2}, {20, 1700, 1700, 1.8, 0.5}};
+    const Files files = write_kraken(e, {}, {1400, 1600}, 1);
+    const EnvFile back = read_env(files.at("env"), [&](const std::string& extension) {
+        return std::optional(files.at(extension));
+    });
+    EXPECT_EQ(back.environment.bottom_depth_m, e.bottom_depth_m);
+    EXPECT_EQ(back.environment.bottom.sound_speed_mps, e.bottom.sound_speed_mps);
+    EXPECT_EQ(back.environment.bottom.roughness_m, 0.3);
+    EXPECT_EQ(back.environment.bottom.layers, e.bottom.layers);
+    EXPECT_TRUE(back.remarks.empty());
+    try {
+        write_bellhop(e, {}, false);
+        ADD_FAILURE() << "written";
+    } catch (const DataError& error) {
+        EXPECT_NE(std::string(error.what()).find("bottom.layers is not empty"), std::string::npos);
+    }
+}
+
 TEST(EnvWriter, ProfilesEndAtTheBottom) {
     for (const double last_m : {60.0, 140.0}) {
         pg::Environment e = sea();

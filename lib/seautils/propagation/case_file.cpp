@@ -197,6 +197,37 @@ private:
         return rows;
     }
 
+    std::vector<SedimentLayer> layers(const Value& value) {
+        const std::size_t n = value.length();
+        if (n > Bounds::most_layers)
+            value.refuse(fmt::format("has {} elements, more than {}", n, Bounds::most_layers));
+        std::vector<SedimentLayer> all(n);
+        for (std::size_t k = 0; k < n; ++k) all[k] = layer(value[k]);
+        return all;
+    }
+
+    SedimentLayer layer(const Value& value) {
+        Object object(value, result_.remarks);
+        SedimentLayer l;
+        l.thickness_m = object.need("thickness_m").number();
+        if (const auto speed = object.get("sound_speed_m_s")) {
+            l.sound_speed_top_mps = l.sound_speed_bottom_mps = speed->number();
+            for (const char* key : {"sound_speed_top_m_s", "sound_speed_bottom_m_s"})
+                if (const auto end = object.get(key))
+                    end->refuse("is given beside sound_speed_m_s");
+        } else {
+            l.sound_speed_top_mps = object.need("sound_speed_top_m_s").number();
+            l.sound_speed_bottom_mps = object.need("sound_speed_bottom_m_s").number();
+        }
+        const auto shear = object.get("shear_speed_m_s");
+        if (shear && shear->number() != 0)
+            shear->refuse(fmt::format("{} is not 0 m/s: layers are fluid", shear->number()));
+        l.density_gcm3 = object.number("density_g_cm3", l.density_gcm3);
+        l.attenuation_db_per_wavelength = object.number("attenuation_db_per_wavelength", 0);
+        object.end();
+        return l;
+    }
+
     /// What a surface and a bottom have in common.
     void boundary(Object& object, Boundary& b, BoundaryKind otherwise) {
         b.kind = otherwise;
@@ -250,6 +281,7 @@ private:
         Object object(value, result_.remarks);
         Environment& e = result_.environment;
         boundary(object, e.bottom, BoundaryKind::half_space);
+        if (const auto above = object.get("layers")) e.bottom.layers = layers(*above);
         e.bottom_line = line_of(object.get("bathymetry"));
         const auto depth = object.get("depth_m");
         if (depth)

@@ -37,6 +37,8 @@ Edge::Edge(const Boundary& b, const char* name, double frequency_hz, double wate
     : kind_(b.kind),
       roughness_m_(b.roughness_m),
       density_ratio_(water_density_gcm3 / b.density_gcm3),
+      water_density_gcm3_(water_density_gcm3),
+      slices_(slices_of(b.layers, 2 * pi * frequency_hz)),
       compressional_(
           squared_wavenumber(frequency_hz, b.sound_speed_mps, b.attenuation_db_per_wavelength)) {
     if (kind_ == BoundaryKind::table)
@@ -44,18 +46,43 @@ Edge::Edge(const Boundary& b, const char* name, double frequency_hz, double wate
     if (b.shear_speed_mps > 0)
         shear_ = squared_wavenumber(frequency_hz, b.shear_speed_mps,
                                     b.shear_attenuation_db_per_wavelength);
+    for (const Slice& slice : slices_)
+        slice_k2_.push_back(squared_wavenumber(frequency_hz, slice.sound_speed_mps,
+                                               slice.attenuation_db_per_wavelength));
+}
+
+/// Of what is below all layers, or without them.
+Complex Edge::smooth_admittance(const Complex& xi) const {
+    if (kind_ != BoundaryKind::half_space)
+        return kind_ == BoundaryKind::vacuum ? free_admittance : 0;
+    const Complex p = outward_root(xi - compressional_);
+    Complex g = density_ratio_ * p;
+    if (shear_ != 0.0) {
+        const Complex s = outward_root(xi - shear_), sum = 2.0 * xi - shear_;
+        g *= shear_ * shear_ / (sum * sum - 4.0 * s * p * xi);
+    }
+    return g;
+}
+
+Complex Edge::stack_admittance(const Complex& xi, const Complex& base) const {
+    StackWave wave{base / water_density_gcm3_, 1};
+    if (kind_ == BoundaryKind::vacuum) wave = {1, 0};
+    for (std::size_t k = 0; k < slices_.size(); ++k)
+        wave = through(slices_[k], xi, slice_k2_[k], wave);
+    const Complex flow = water_density_gcm3_ * wave.flow;
+    return std::abs(flow) < free_admittance * std::abs(wave.pressure) ? flow / wave.pressure
+                                                                      : free_admittance;
+}
+
+double Edge::most_k2() const noexcept {
+    double most = 0;
+    for (const Complex& k2 : slice_k2_) most = std::max(most, k2.real());
+    return most;
 }
 
 Complex Edge::admittance(const Complex& xi, const Complex& water) const {
-    Complex g = kind_ == BoundaryKind::vacuum ? free_admittance : 0;
-    if (kind_ == BoundaryKind::half_space) {
-        const Complex p = outward_root(xi - compressional_);
-        g = density_ratio_ * p;
-        if (shear_ != 0.0) {
-            const Complex s = outward_root(xi - shear_), sum = 2.0 * xi - shear_;
-            g *= shear_ * shear_ / (sum * sum - 4.0 * s * p * xi);
-        }
-    }
+    Complex g = smooth_admittance(xi);
+    if (!slices_.empty()) g = stack_admittance(xi, g);
     const Complex squared = water - xi;
     if (roughness_m_ == 0 || squared.real() <= 0) return g;
     const Complex across = i * std::sqrt(squared);

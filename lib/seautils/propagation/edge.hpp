@@ -1,9 +1,10 @@
 #ifndef SEAUTILS_PROPAGATION_EDGE_HPP
 #define SEAUTILS_PROPAGATION_EDGE_HPP
 
-#include "seautils/propagation/environment.hpp"
+#include "seautils/propagation/layer_stack.hpp"
 
 #include <complex>
+#include <vector>
 
 namespace seautils::propagation {
 
@@ -18,7 +19,11 @@ public:
          double water_density_gcm3);
 
     /// No pressure at the boundary at all.
-    bool is_free() const noexcept { return kind_ == BoundaryKind::vacuum && roughness_m_ == 0; }
+    bool is_free() const noexcept {
+        return kind_ == BoundaryKind::vacuum && roughness_m_ == 0 && slices_.empty();
+    }
+    /// Squared wavenumber of the slowest layer, rad²/m²; 0 without layers.
+    double most_k2() const noexcept;
     /// Below the squared wavenumber of the half-space waves leave through it: the root is that of outgoing
     /// waves (the cut of the Pekeris problem goes straight up).
     /// @param xi     squared horizontal wavenumber, rad²/m²
@@ -30,9 +35,15 @@ public:
     Complex excess_phase(double xi, double water) const;
 
 private:
+    Complex smooth_admittance(const Complex& xi) const;
+    Complex stack_admittance(const Complex& xi, const Complex& base) const;
+
     BoundaryKind kind_;
     double roughness_m_, density_ratio_;  ///< water over half-space
-    Complex compressional_, shear_;       ///< squared wavenumbers; shear_ 0 in a fluid
+    double water_density_gcm3_;
+    std::vector<Slice> slices_;      ///< from the lowest up
+    std::vector<Complex> slice_k2_;  ///< theirs
+    Complex compressional_, shear_;  ///< squared wavenumbers; shear_ 0 in a fluid
 };
 
 }  // namespace seautils::propagation

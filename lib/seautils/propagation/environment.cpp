@@ -23,6 +23,7 @@ constexpr Span depths{least_depth_m, Bounds::most_depth_m, " m"};
 constexpr Span ranges{-Bounds::most_range_m, Bounds::most_range_m, " m"};
 constexpr Span speeds{Bounds::least_speed_mps, Bounds::most_speed_mps, " m/s"};
 constexpr Span densities{Bounds::least_density_gcm3, Bounds::most_density_gcm3, " g/cm3"};
+constexpr Span losses{0, 50, " dB"};
 constexpr Span elevations{-180, 180, " degrees"};
 
 /// NaN is in no span.
@@ -112,11 +113,31 @@ void check_table(const std::string& field, const std::vector<ReflectionRow>& row
                 [&](std::size_t k) { return rows[k].phase_deg; });
 }
 
+void check_layer(const std::string& field, const SedimentLayer& l) {
+    within(field + ".thickness_m", l.thickness_m,
+           {Bounds::least_thickness_m, Bounds::most_thickness_m, " m"});
+    within(field + ".sound_speed_top_mps", l.sound_speed_top_mps, speeds);
+    within(field + ".sound_speed_bottom_mps", l.sound_speed_bottom_mps, speeds);
+    within(field + ".density_gcm3", l.density_gcm3, densities);
+    within(field + ".attenuation_db_per_wavelength", l.attenuation_db_per_wavelength, losses);
+}
+
+void check_layers(const Environment& e) {
+    if (!e.surface.layers.empty()) refuse("surface.layers: only a bottom has layers");
+    const std::vector<SedimentLayer>& layers = e.bottom.layers;
+    if (layers.size() > Bounds::most_layers)
+        refuse(fmt::format("bottom.layers has {} values, more than {}", layers.size(),
+                           Bounds::most_layers));
+    if (e.bottom.kind == BoundaryKind::table && !layers.empty())
+        refuse("bottom.layers: a table of reflection coefficients has no layers above it");
+    for (std::size_t k = 0; k < layers.size(); ++k)
+        check_layer(fmt::format("bottom.layers[{}]", k), layers[k]);
+}
+
 void check_boundary(const std::string& field, const Boundary& b) {
     within(field + ".sound_speed_mps", b.sound_speed_mps, speeds);
     within(field + ".shear_speed_mps", b.shear_speed_mps, {0, Bounds::most_speed_mps, " m/s"});
     within(field + ".density_gcm3", b.density_gcm3, densities);
-    constexpr Span losses{0, 50, " dB"};
     within(field + ".attenuation_db_per_wavelength", b.attenuation_db_per_wavelength, losses);
     within(field + ".shear_attenuation_db_per_wavelength", b.shear_attenuation_db_per_wavelength,
            losses);
@@ -182,6 +203,7 @@ void check(const Environment& e) {
     check_water(e.water);
     check_boundary("surface", e.surface);
     check_boundary("bottom", e.bottom);
+    check_layers(e);
     if (e.surface_line) check_line("surface_line", *e.surface_line);
     if (e.bottom_line) check_line("bottom_line", *e.bottom_line);
     check_depth(e);

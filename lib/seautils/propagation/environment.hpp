@@ -84,6 +84,16 @@ enum class BoundaryKind : std::uint8_t {
     table,
 };
 
+/// A fluid layer between the water and what lies below. Its speed is linear in depth, from its top to its bottom.
+struct SedimentLayer {
+    double thickness_m = 0;
+    double sound_speed_top_mps = 1600, sound_speed_bottom_mps = 1600;
+    double density_gcm3 = 1.8;
+    double attenuation_db_per_wavelength = 0;
+
+    bool operator==(const SedimentLayer&) const = default;
+};
+
 /// Below (or above) the water. A grain size is turned into a half-space by grain_half_space().
 struct Boundary {
     BoundaryKind kind = BoundaryKind::vacuum;
@@ -94,7 +104,14 @@ struct Boundary {
     double shear_attenuation_db_per_wavelength = 0;
     double roughness_m = 0;            ///< rms; 0: smooth. Coherent (Kirchhoff) loss
     std::vector<ReflectionRow> table;  ///< of `table`; grows in angle
+    /// Of a bottom that is no table: from the water down to what `kind` says. They follow bathymetry, each as thick
+    /// everywhere. Roughness is that of the water's boundary.
+    std::vector<SedimentLayer> layers{};
 
+    /// Pressure release without loss: R = -1.
+    bool is_free() const noexcept {
+        return kind == BoundaryKind::vacuum && roughness_m == 0 && layers.empty();
+    }
     bool operator==(const Boundary&) const = default;
 };
 
@@ -162,6 +179,8 @@ struct Bounds {
     static constexpr double least_density_gcm3 = 0.001, most_density_gcm3 = 20;
     static constexpr std::size_t most_points = 2'000'000;      ///< of any list
     static constexpr std::size_t most_receivers = 20'000'000;  ///< depths times ranges
+    static constexpr std::size_t most_layers = 1000;
+    static constexpr double least_thickness_m = 1e-4, most_thickness_m = 20000;  ///< of a layer
     static constexpr std::uint32_t most_beams = 1'000'000;
 };
 

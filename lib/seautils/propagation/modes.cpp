@@ -266,6 +266,8 @@ bool holds_modes(const Environment& e) {
 
 Field mode_field(const Environment& environment, const FieldOptions& options) {
     const LevelSea sea(environment, options, "modes");
+    if (!environment.bottom.layers.empty())
+        throw DataError("modes: bottom.layers is not empty (wavenumber and rays can)");
     if (!holds_modes(environment))
         throw DataError("modes: a boundary reflects nothing, so there are none (rays can)");
     const Plan what = plan(environment, sea);

@@ -12,6 +12,7 @@ seautils_module(NAME propagation
     engine.cpp
     environment.cpp
     hankel.cpp
+    layer_stack.cpp
     level_sea.cpp
     mesh_rows.cpp
     mode_search.cpp

@@ -11,7 +11,7 @@ namespace {
 
 void bounce(const RaySea& sea, Leg& leg) {
     const auto& wall = leg.touch == Touch::surface ? sea.surface : sea.bottom;
-    if (wall.boundary.kind == BoundaryKind::vacuum && wall.boundary.roughness_m == 0) {
+    if (wall.boundary.is_free()) {
         leg.phase_rad = std::numbers::pi;
         return;
     }

@@ -2,6 +2,7 @@
 
 #include "seautils/core/error.hpp"
 #include "seautils/propagation/absorption.hpp"
+#include "seautils/propagation/layer_stack.hpp"
 
 #include <fmt/format.h>
 
@@ -29,22 +30,34 @@ Complex decay(double horizontal, const Complex& k) {
     return gamma.real() < 0 || (gamma.real() == 0 && gamma.imag() < 0) ? -gamma : gamma;
 }
 
-Complex half_space(const Boundary& b, double omega, double grazing_rad, double speed_mps,
-                   double density_gcm3) {
-    const double k = omega / speed_mps, kx = k * std::cos(grazing_rad),
-                 kz = k * std::sin(grazing_rad);
+/// What waves in a half-space are at its edge.
+StackWave half_space(const Boundary& b, double omega, double kx) {
     const Complex gamma_p =
         decay(kx, wavenumber(omega, b.sound_speed_mps, b.attenuation_db_per_wavelength));
-    Complex f = gamma_p, g = b.density_gcm3;
-    if (b.shear_speed_mps > 0) {
-        const Complex ks =
-            wavenumber(omega, b.shear_speed_mps, b.shear_attenuation_db_per_wavelength);
-        const Complex gamma_s = decay(kx, ks);
-        const Complex sum = gamma_s * gamma_s + kx * kx;
-        f = gamma_p * ks * ks * ks * ks;  // ω² (kx² - γs²) / μ = ks⁴ ω² / (μ ks²), and ρ ω² = μ ks²
-        g = b.density_gcm3 * (sum * sum - 4.0 * gamma_s * gamma_p * (kx * kx));
-    }
-    const Complex above = density_gcm3 * f, below = Complex(0, kz) * g;
+    if (b.shear_speed_mps <= 0) return {gamma_p, b.density_gcm3};
+    const Complex ks = wavenumber(omega, b.shear_speed_mps, b.shear_attenuation_db_per_wavelength);
+    const Complex gamma_s = decay(kx, ks);
+    const Complex sum = gamma_s * gamma_s + kx * kx;
+    // ω² (kx² - γs²) / μ = ks⁴ ω² / (μ ks²), and ρ ω² = μ ks²
+    return {gamma_p * ks * ks * ks * ks,
+            b.density_gcm3 * (sum * sum - 4.0 * gamma_s * gamma_p * (kx * kx))};
+}
+
+/// Of layers, if any, above a half-space or a perfect boundary.
+Complex stack(const Boundary& b, double omega, double grazing_rad, double speed_mps,
+              double density_gcm3) {
+    const double k = omega / speed_mps, kx = k * std::cos(grazing_rad),
+                 kz = k * std::sin(grazing_rad);
+    StackWave wave{1, 0};
+    if (b.kind == BoundaryKind::rigid) wave = {0, 1};
+    if (b.kind == BoundaryKind::half_space) wave = half_space(b, omega, kx);
+    if (!b.layers.empty())
+        for (const Slice& slice : slices_of(b.layers, omega)) {
+            const Complex ks =
+                wavenumber(omega, slice.sound_speed_mps, slice.attenuation_db_per_wavelength);
+            wave = through(slice, kx * kx, ks * ks, wave);
+        }
+    const Complex above = density_gcm3 * wave.flow, below = Complex(0, kz) * wave.pressure;
     return -(above - below) / (above + below);
 }
 
@@ -89,19 +102,12 @@ Complex reflection_coefficient(const Boundary& boundary, double frequency_hz, do
                                double sound_speed_mps, double density_gcm3) {
     const double omega = 2 * pi * frequency_hz;
     Complex r = -1;
-    switch (boundary.kind) {
-        case BoundaryKind::vacuum:
-            break;
-        case BoundaryKind::rigid:
-            r = 1;
-            break;
-        case BoundaryKind::half_space:
-            r = half_space(boundary, omega, grazing_rad, sound_speed_mps, density_gcm3);
-            break;
-        case BoundaryKind::table:
-            r = table(boundary.table, grazing_rad * 180 / pi);
-            break;
-    }
+    if (boundary.kind == BoundaryKind::table)
+        r = table(boundary.table, grazing_rad * 180 / pi);
+    else if (boundary.kind == BoundaryKind::half_space || !boundary.layers.empty())
+        r = stack(boundary, omega, grazing_rad, sound_speed_mps, density_gcm3);
+    else if (boundary.kind == BoundaryKind::rigid)
+        r = 1;
     if (boundary.roughness_m > 0) {
         const double rayleigh =
             omega / sound_speed_mps * boundary.roughness_m * std::sin(grazing_rad);

@@ -9,6 +9,7 @@ namespace seautils::propagation {
 
 /// Complex plane-wave reflection coefficient of a boundary seen from the water, in the time convention of the Acoustics
 /// Toolbox (the conjugate of exp(-iωt)).
+/// Layers count as homogeneous slices, see slices_of().
 /// The speed of a lossy medium is complex, c (1 + i loss), as in the Acoustics Toolbox.
 /// Check values (half-space 1700 / (1 + loss²) m/s, 1.8 g/cm³, 0.5 dB a wavelength under 1500 m/s, 1.0): 1° gives magnitude 0.995732 and
 /// a phase of +172.369° here; 20° 0.945548, 55.573°; 30° 0.677049; 90° 0.342117.

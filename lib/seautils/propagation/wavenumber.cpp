@@ -41,7 +41,9 @@ struct Contour {
 /// Far above the water's wavenumber what is sampled falls as exp(-s |z - zs|): to 1e-5 of the nearest receivers
 /// that do not lie at the source's depth.
 double most_wavenumber(const Environment& e, const LevelSea& sea) {
-    const double k = std::sqrt(sea.most_k2);
+    // Waves in a layer that is slow against the water are heard near the bottom.
+    const double k =
+        std::sqrt(std::max(sea.most_k2, std::min(sea.bottom.most_k2(), 4 * sea.most_k2)));
     double apart = 1e300;
     for (const double z : sea.depth_m) {
         const double d = std::abs(z - e.source.depth_m);

@@ -41,11 +41,11 @@ public:
         file_.read([&](Read& r) { e.frequency_hz = real(r, "frequency"); });
         std::int64_t media = 1;
         file_.read([&](Read& r) { r.whole(media, "NMEDIA", 1, 1'000'000); });
-        if (media != 1)
-            throw DataError(fmt::format("NMEDIA {} is not 1: layered bottoms are not read", media));
         top();
         profile();
+        sediment(media);
         bottom();
+        place_layers();
         has_run_type() ? bellhop() : kraken();
         clamp_depths();
         e.source.depth_m = result_.source_depth_m.front();
@@ -236,6 +236,88 @@ private:
         if (option_[0] == 'Q') speed_mesh();
     }
 
+    /// The media below the water; what a row leaves out is as in the row before it, in another medium too.
+    void sediment(std::int64_t media) {
+        double top_m = result_.environment.bottom_depth_m, sigma = 0;
+        for (std::int64_t k = 2; k <= media; ++k) {
+            double bottom_m = 0;
+            file_.read([&](Read& r) {
+                double mesh = 0;
+                r.real(mesh, "NMESH");
+                r.real(sigma, "SIGMA");
+                bottom_m = real(r, "the medium's depth");
+            });
+            (k == 2 ? roughness_m_ : buried_roughness_m_) += sigma;
+            medium(k, top_m, bottom_m);
+            top_m = bottom_m;
+        }
+        if (media > 1 && option_[0] != 'C')
+            result_.remarks.emplace_back("the speed in layers of the bottom is linear in depth");
+    }
+
+    void medium(std::int64_t number, double top_m, double bottom_m) {
+        std::size_t line = file_.line();
+        fluid_row(number);
+        if (!(std::fabs(row_.depth_m - top_m) <= 1e-5))
+            throw DataError(fmt::format("line {}: depth {} is not the {} m where medium {} begins",
+                                        line, row_.depth_m, top_m, number));
+        do {
+            const Row above = row_;
+            line = file_.line();
+            fluid_row(number);
+            if (!(row_.depth_m > above.depth_m))
+                throw DataError(fmt::format("line {}: depth {} is not below the {} m before it",
+                                            line, row_.depth_m, above.depth_m));
+            if (row_.depth_m > bottom_m + 1e-5)
+                throw DataError(
+                    fmt::format("line {}: depth {} is below the {} m where medium {} "
+                                "ends",
+                                line, row_.depth_m, bottom_m, number));
+            layer(above, line);
+        } while (std::fabs(row_.depth_m - bottom_m) > 1e-5);
+    }
+
+    void fluid_row(std::int64_t medium) {
+        const std::size_t line = file_.line();
+        row();
+        if (row_.shear_mps != 0)
+            throw DataError(
+                fmt::format("line {}: medium {} has a shear speed of {} m/s: only the "
+                            "lowest half-space may",
+                            line, medium, row_.shear_mps));
+    }
+
+    /// Between two rows: in steps of a twentieth where the density changes.
+    void layer(const Row& above, std::size_t line) {
+        const double change = std::fabs(row_.density - above.density) /
+                              (0.05 * std::max(row_.density, above.density));
+        const int steps = change > 0 ? static_cast<int>(std::min(20.0, std::ceil(change))) : 1;
+        const double thickness_m = (row_.depth_m - above.depth_m) / steps;
+        const double top_db = per_wavelength(above.attenuation, above.speed_mps),
+                     bottom_db = per_wavelength(row_.attenuation, row_.speed_mps);
+        for (int k = 0; k < steps; ++k) {
+            const double from = static_cast<double>(k) / steps, to = (k + 1.0) / steps,
+                         at = (from + to) / 2;
+            layers_.push_back({thickness_m, std::lerp(above.speed_mps, row_.speed_mps, from),
+                               std::lerp(above.speed_mps, row_.speed_mps, to),
+                               std::lerp(above.density, row_.density, at),
+                               std::lerp(top_db, bottom_db, at)});
+        }
+        if (layers_.size() > pg::Bounds::most_layers)
+            throw DataError(fmt::format("line {}: the bottom has more than {} layers", line,
+                                        pg::Bounds::most_layers));
+    }
+
+    /// Roughness is known only where the water ends.
+    void place_layers() {
+        pg::Boundary& b = result_.environment.bottom;
+        if (layers_.empty()) return;
+        if (b.roughness_m + buried_roughness_m_ > 0)
+            result_.remarks.emplace_back("the roughness below the first layer is left alone");
+        b.roughness_m = roughness_m_;
+        b.layers = std::move(layers_);
+    }
+
     double db_per_m(const Row& r) const {
         return per_wavelength(r.attenuation, r.speed_mps) * result_.environment.frequency_hz /
                r.speed_mps;
@@ -395,6 +477,8 @@ private:
     const Companion& companion_;
     std::string option_;  ///< TOPOPT
     Row row_;
+    std::vector<pg::SedimentLayer> layers_;
+    double roughness_m_ = 0, buried_roughness_m_ = 0;  ///< of the first layer's top, of others
     EnvFile result_;
 };
 

@@ -22,6 +22,10 @@ public:
         : e_(environment), options_(options) {}
 
     Files bellhop(bool arrivals) {
+        if (!e_.bottom.layers.empty())
+            throw DataError(
+                "BELLHOP knows no layers below the bottom: bottom.layers is not empty (kraken, "
+                "krakenc, scooter and the engines of tl-model can)");
         depth_m_ = deepest();
         head(true);
         vector({e_.source.depth_m}, 1);
@@ -100,7 +104,7 @@ private:
             [](char c) { return c == '\'' || static_cast<unsigned char>(c) < 32; }, ' ');
         line("'{}'", title);
         line("{}", e_.frequency_hz);
-        line("1");
+        line("{}", 1 + e_.bottom.layers.size());
         line("'{}{}W{}{}'", letter_of_speed(), letter_of(e_.surface), letter_of_absorption(),
              for_rays && e_.surface_line ? '~' : ' ');
         const pg::Absorption& a = e_.water.absorption;
@@ -109,8 +113,10 @@ private:
         boundary(e_.surface, 0, "trc");
         profile();
         const bool has_line = for_rays && (e_.bottom_line || depth_m_ > e_.bottom_depth_m);
-        line("'{}{}' {}", letter_of(e_.bottom), has_line ? '~' : ' ', e_.bottom.roughness_m);
-        boundary(e_.bottom, depth_m_, "brc");
+        const double below_m = layers();
+        line("'{}{}' {}", letter_of(e_.bottom), has_line ? '~' : ' ',
+             e_.bottom.layers.empty() ? e_.bottom.roughness_m : 0);
+        boundary(e_.bottom, below_m, "brc");
         if (for_rays && e_.surface_line) boundary_line("ati", *e_.surface_line);
         if (has_line)
             boundary_line("bty",
@@ -118,6 +124,22 @@ private:
                               ? *e_.bottom_line
                               : pg::Line{false, {0, 1e5}, {e_.bottom_depth_m, e_.bottom_depth_m}});
         text_ = &files_["env"];
+    }
+
+    /// Each as a medium. @return where the last one ends
+    double layers() {
+        double top_m = depth_m_, roughness_m = e_.bottom.roughness_m;
+        for (const pg::SedimentLayer& l : e_.bottom.layers) {
+            const double bottom_m = top_m + l.thickness_m;
+            line("0 {} {:.12g}", roughness_m, bottom_m);
+            line("{:.12g} {} 0 {} {} 0 /", top_m, l.sound_speed_top_mps, l.density_gcm3,
+                 l.attenuation_db_per_wavelength);
+            line("{:.12g} {} 0 {} {} 0 /", bottom_m, l.sound_speed_bottom_mps, l.density_gcm3,
+                 l.attenuation_db_per_wavelength);
+            top_m = bottom_m;
+            roughness_m = 0;
+        }
+        return top_m;
     }
 
     char letter_of_speed() const {

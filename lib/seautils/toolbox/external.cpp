@@ -154,6 +154,8 @@ double least_speed_mps(const pg::Environment& e) {
     double least = std::numeric_limits<double>::infinity();
     for (const pg::SpeedPoint& point : e.water.profile)
         least = std::min(least, point.sound_speed_mps);
+    for (const pg::SedimentLayer& l : e.bottom.layers)
+        least = std::min({least, l.sound_speed_top_mps, l.sound_speed_bottom_mps});
     return least;
 }
 

@@ -1,0 +1,58 @@
+#include "seautils/propagation/layer_stack.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seautils::propagation {
+
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double tolerance = 3e-4;
+
+double wanted_slices(const SedimentLayer& l, double omega) {
+    const double top = omega / l.sound_speed_top_mps, bottom = omega / l.sound_speed_bottom_mps;
+    const double change = std::abs(top * top - bottom * bottom);
+    return std::max(1.0, std::ceil(l.thickness_m * std::sqrt(change / (12 * tolerance))));
+}
+
+/// (1 - exp(-2γd)) / γ
+Complex span(const Complex& gamma, double thickness_m, const Complex& decayed) {
+    const Complex x = gamma * thickness_m;
+    if (std::abs(x) > 1e-3) return (1.0 - decayed) / gamma;
+    return thickness_m * (2.0 - x * (2.0 - x * (4.0 / 3 - x * (2.0 / 3))));
+}
+
+double size(const Complex& z) { return std::abs(z.real()) + std::abs(z.imag()); }
+
+}  // namespace
+
+std::vector<Slice> slices_of(const std::vector<SedimentLayer>& layers, double omega) {
+    double wanted = 0;
+    for (const SedimentLayer& l : layers) wanted += wanted_slices(l, omega);
+    const double share = std::min(1.0, most_slices / wanted);
+    std::vector<Slice> slices;
+    for (auto l = layers.rbegin(); l != layers.rend(); ++l) {
+        const double n = std::max(1.0, std::floor(wanted_slices(*l, omega) * share));
+        for (double k = n - 0.5; k > 0; --k)
+            slices.push_back({l->thickness_m / n,
+                              std::lerp(l->sound_speed_top_mps, l->sound_speed_bottom_mps, k / n),
+                              l->density_gcm3, l->attenuation_db_per_wavelength});
+    }
+    return slices;
+}
+
+StackWave through(const Slice& slice, const Complex& xi, const Complex& k2,
+                  const StackWave& below) {
+    const Complex square = xi - k2,
+                  gamma = std::sqrt(square);  // decays: its real part is not below 0
+    const Complex decayed = std::exp(-2.0 * gamma * slice.thickness_m);
+    const Complex across = span(gamma, slice.thickness_m, decayed);
+    const StackWave above{
+        below.flow * (1.0 + decayed) + below.pressure * square * across / slice.density_gcm3,
+        below.pressure * (1.0 + decayed) + below.flow * across * slice.density_gcm3};
+    const double scale = std::max(size(above.flow), size(above.pressure));
+    return {above.flow / scale, above.pressure / scale};
+}
+
+}  // namespace seautils::propagation
