@@ -2,6 +2,7 @@
 #include "seautils/core/error.hpp"
 #include "seautils/propagation/edge.hpp"
 #include "seautils/propagation/engine.hpp"
+#include "seautils/propagation/mode_search.hpp"
 #include "seautils/propagation/modes.hpp"
 #include "seautils/propagation/reflection.hpp"
 
@@ -203,6 +204,100 @@ TEST(Sediment, AsDenseAsWaterIsWater) {
     EXPECT_LT(apart(layered, wavenumber_field(water, coherent())), 1e-4);
     water.bottom_depth_m = 100;  // and it counts
     EXPECT_GT(apart(layered, wavenumber_field(water, coherent())), 0.1);
+}
+
+/// Of the lossless sea, of phase speeds below that of the half-space.
+struct Trapped {
+    std::size_t count;
+    std::vector<double> xi;
+};
+Trapped trapped(const Environment& e) {
+    const Column column(e);
+    const Edge surface(e.surface, "surface", e.frequency_hz, e.water.density_gcm3);
+    const Edge bottom(e.bottom, "bottom", e.frequency_hz, e.water.density_gcm3);
+    const double omega = 2 * pi * e.frequency_hz, least_xi = std::pow(omega / 1699, 2);
+    const Waveguide guide{column, surface, bottom, omega, 0};
+    Trapped t{count_modes(Mesh(guide, 1200), least_xi), {}};
+    for (const Mode& m : find_modes(guide, least_xi, 600, {10}).modes) t.xi.push_back(m.xi.real());
+    return t;
+}
+
+TEST(Sediment, HoldsTheModesOfWaterThatIsTheSame) {
+    Environment e = shelf();
+    e.bottom.attenuation_db_per_wavelength = 0;
+    for (const double middle_mps : {1540.0, 1460.0, 1400.0}) {
+        e.bottom.layers = {{20, 1495, middle_mps, 1, 0}, {10, middle_mps, 1600, 1, 0}};
+        Environment water = e;
+        water.bottom.layers.clear();
+        water.bottom_depth_m = 130;
+        water.water.profile.insert(water.water.profile.end(), {{120, middle_mps}, {130, 1600}});
+        const Trapped layered = trapped(e), wanted = trapped(water);
+        EXPECT_EQ(layered.count, wanted.count);
+        ASSERT_EQ(wanted.xi.size(), wanted.count);
+        // The lowest of a deep channel is nothing in the water, and not found there.
+        const std::size_t buried = middle_mps == 1400 ? 1 : 0;
+        ASSERT_EQ(layered.xi.size(), wanted.count - buried);
+        for (std::size_t m = 0; m < layered.xi.size(); ++m)
+            EXPECT_NEAR(layered.xi[m] / wanted.xi[m + buried], 1, 3e-6) << m;
+    }
+}
+
+TEST(Sediment, ModesAddUpToTheWavenumbers) {
+    Environment e = shelf();
+    const std::vector<std::vector<SedimentLayer>> bottoms{
+        {layer(6, 1460, 1.4, 0.1)},
+        {{20, 1495, 1540, 1.3, 0.4}, {10, 1540, 1600, 1.6, 0.6}},
+        {layer(12, 1650, 1.7, 0), {20, 1500, 1420, 1.5, 0.2}, layer(3, 1800, 2, 0.5)}};
+    for (const auto& layers : bottoms) {
+        e.bottom.layers = layers;
+        const Field modes = mode_field(e, coherent()), exact = wavenumber_field(e, coherent());
+        EXPECT_LT(apart(modes, exact), 1e-3);
+        EXPECT_EQ(compute_field(e, Engine::automatic, coherent()).basis.engine, Engine::modes);
+    }
+    e.bottom.layers[0].thickness_m = 100;
+    EXPECT_EQ(choose_engine(e, coherent()).why,
+              "the water and the layers below are 35.8 wavelengths deep, more than 30");
+}
+
+/// Mean loss over blocks of 10 depths by 20 ranges, dB.
+std::vector<double> blocks(const Field& f) {
+    std::vector<double> means;
+    for (std::size_t z = 0; z + 10 <= f.depths; z += 10)
+        for (std::size_t r = 0; r + 20 <= f.ranges; r += 20) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 200; ++k)
+                sum += std::pow(10, -f.loss_db[(z + k / 20) * f.ranges + r + k % 20] / 10);
+            means.push_back(-10 * std::log10(sum / 200));
+        }
+    return means;
+}
+
+TEST(Sediment, ReflectsRaysAsItDoesWaves) {
+    Environment e = shelf();
+    e.frequency_hz = 200;
+    e.bottom_depth_m = 500;
+    e.source.depth_m = 180;
+    e.water.profile = {{0, 1500}};
+    e.bottom =
+        with(half_space(1900, 2, 0.5), {{4, 1480, 1520, 1.5, 0.3}, layer(6, 1650, 1.8, 0.6)});
+    e.receivers = {};
+    for (int k = 0; k < 30; ++k) e.receivers.depth_m.push_back(40 + 14 * k);
+    for (int k = 0; k < 100; ++k) e.receivers.range_m.push_back(2000 + 40 * k);
+    const std::vector<double> waves = blocks(wavenumber_field(e, coherent())),
+                              rays = blocks(ray_field(e, {}));
+    double mean = 0, most = 0;
+    for (std::size_t k = 0; k < waves.size(); ++k) {
+        mean += (rays[k] - waves[k]) / static_cast<double>(waves.size());
+        most = std::max(most, std::abs(rays[k] - waves[k]));
+    }
+    EXPECT_LT(std::abs(mean), 0.3);
+    EXPECT_LT(most, 2);
+    e.bottom.layers.clear();
+    const std::vector<double> bare = blocks(ray_field(e, {}));
+    double changed = 0;
+    for (std::size_t k = 0; k < waves.size(); ++k)
+        changed += std::abs(bare[k] - rays[k]) / static_cast<double>(waves.size());
+    EXPECT_GT(changed, 1);
 }
 
 TEST(Sediment, IsReciprocal) {

@@ -51,10 +51,7 @@ Edge::Edge(const Boundary& b, const char* name, double frequency_hz, double wate
                                                slice.attenuation_db_per_wavelength));
 }
 
-/// Of what is below all layers, or without them.
-Complex Edge::smooth_admittance(const Complex& xi) const {
-    if (kind_ != BoundaryKind::half_space)
-        return kind_ == BoundaryKind::vacuum ? free_admittance : 0;
+Complex Edge::half_space_admittance(const Complex& xi) const {
     const Complex p = outward_root(xi - compressional_);
     Complex g = density_ratio_ * p;
     if (shear_ != 0.0) {
@@ -62,6 +59,25 @@ Complex Edge::smooth_admittance(const Complex& xi) const {
         g *= shear_ * shear_ / (sum * sum - 4.0 * s * p * xi);
     }
     return g;
+}
+
+/// Of what is below all layers, or without them.
+Complex Edge::smooth_admittance(const Complex& xi) const {
+    if (kind_ != BoundaryKind::half_space)
+        return kind_ == BoundaryKind::vacuum ? free_admittance : 0;
+    const Complex g = half_space_admittance(xi);
+    if (share_ == 1) return g;
+    const Complex difference = xi - compressional_.real();
+    const Complex lossless = difference.real() > 0 ? density_ratio_ * std::sqrt(difference) : 0;
+    return lossless + share_ * (g - lossless);
+}
+
+Edge Edge::losing(double share) const {
+    Edge edge(*this);
+    edge.share_ = share;
+    edge.roughness_m_ *= std::sqrt(share);
+    for (Complex& k2 : edge.slice_k2_) k2.imag(k2.imag() * share);
+    return edge;
 }
 
 Complex Edge::stack_admittance(const Complex& xi, const Complex& base) const {
@@ -91,10 +107,18 @@ Complex Edge::admittance(const Complex& xi, const Complex& water) const {
     return -across * (1.0 - r) / (1.0 + r);
 }
 
-double Edge::real_admittance(double xi) const {
-    if (kind_ == BoundaryKind::vacuum) return free_admittance;
-    if (kind_ == BoundaryKind::rigid) return 0;
-    return density_ratio_ * std::sqrt(std::max(0.0, xi - compressional_.real()));
+Edge::RealStack Edge::real_stack(double xi) const {
+    double g = kind_ == BoundaryKind::vacuum ? free_admittance : 0;
+    if (kind_ == BoundaryKind::half_space)
+        g = density_ratio_ * std::sqrt(std::max(0.0, xi - compressional_.real()));
+    if (slices_.empty()) return {g, 0};
+    RealWave wave{g / water_density_gcm3_, 1};
+    if (kind_ == BoundaryKind::vacuum) wave = {1, 0};
+    for (std::size_t k = 0; k < slices_.size(); ++k)
+        wave = through(slices_[k], xi, slice_k2_[k].real(), wave);
+    g = water_density_gcm3_ * wave.flow / wave.pressure;
+    return {std::isfinite(g) ? std::clamp(g, -free_admittance, free_admittance) : free_admittance,
+            wave.zeros};
 }
 
 Complex Edge::excess_phase(double xi, double water) const {

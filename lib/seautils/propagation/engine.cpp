@@ -29,7 +29,10 @@ const char* against_modes(const Environment& e, const FieldOptions& o) {
 double depth_in_wavelengths(const Environment& e) {
     const Column column(e);
     const double middle = column.surface_m() + column.height_m() / 2;
-    return e.frequency_hz * column.height_m() * std::sqrt(column.squared_slowness(middle));
+    double travel_s = column.height_m() * std::sqrt(column.squared_slowness(middle));
+    for (const SedimentLayer& l : e.bottom.layers)
+        travel_s += 2 * l.thickness_m / (l.sound_speed_top_mps + l.sound_speed_bottom_mps);
+    return e.frequency_hz * travel_s;
 }
 
 }  // namespace
@@ -44,7 +47,8 @@ Choice choose_engine(const Environment& e, const FieldOptions& o) {
     const double wavelengths = depth_in_wavelengths(e);
     const bool few = wavelengths <= most_wavelengths_of_modes;
     return {few ? Engine::modes : Engine::rays,
-            fmt::format("the water is {:.3g} wavelengths deep, {} than {}", wavelengths,
+            fmt::format("the water {} {:.3g} wavelengths deep, {} than {}",
+                        e.bottom.layers.empty() ? "is" : "and the layers below are", wavelengths,
                         few ? "not more" : "more", most_wavelengths_of_modes)};
 }
 

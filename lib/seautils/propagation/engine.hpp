@@ -17,7 +17,7 @@ struct Choice {
     Engine engine = Engine::rays;
     std::string why;
 };
-/// Most depth in wavelengths, fD/c, for modes.
+/// Most depth in wavelengths, fD/c, for modes; of water and layers.
 inline constexpr double most_wavelengths_of_modes = 30;
 Choice choose_engine(const Environment& environment, const FieldOptions& options);
 

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace seautils::propagation {
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double tolerance = 3e-4;
+constexpr double tolerance = 3e-4, pi = std::numbers::pi;
 
 double wanted_slices(const SedimentLayer& l, double omega) {
     const double top = omega / l.sound_speed_top_mps, bottom = omega / l.sound_speed_bottom_mps;
@@ -53,6 +54,31 @@ StackWave through(const Slice& slice, const Complex& xi, const Complex& k2,
         below.pressure * (1.0 + decayed) + below.flow * across * slice.density_gcm3};
     const double scale = std::max(size(above.flow), size(above.pressure));
     return {above.flow / scale, above.pressure / scale};
+}
+
+RealWave through(const Slice& slice, double xi, double k2, const RealWave& below) {
+    const double density = slice.density_gcm3, d = slice.thickness_m;
+    const double q = k2 - xi, turns = std::sqrt(std::abs(q)), x = turns * d;
+    RealWave above = below;
+    if (q > 0) {
+        // From below: pressure goes as cos(turns s - from).
+        const double from = std::atan2(density * below.flow, turns * below.pressure);
+        const auto passed = [](double angle) { return std::floor(angle / pi + 0.5); };
+        above.zeros += static_cast<std::size_t>(passed(x - from) - passed(-from));
+        const double across = std::sin(x) / turns;
+        above.flow = below.flow * std::cos(x) - below.pressure * q * across / density;
+        above.pressure = below.pressure * std::cos(x) + below.flow * across * density;
+    } else {
+        const double decayed = std::exp(-2 * x);
+        const double across = span(turns, d, decayed).real();
+        above.flow = below.flow * (1 + decayed) - below.pressure * q * across / density;
+        above.pressure = below.pressure * (1 + decayed) + below.flow * across * density;
+        if (above.pressure * below.pressure < 0) ++above.zeros;
+    }
+    const double scale = std::max(std::abs(above.flow), std::abs(above.pressure));
+    above.flow /= scale;
+    above.pressure /= scale;
+    return above;
 }
 
 }  // namespace seautils::propagation

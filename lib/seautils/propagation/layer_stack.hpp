@@ -4,6 +4,7 @@
 #include "seautils/propagation/environment.hpp"
 
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 namespace seautils::propagation {
@@ -33,6 +34,13 @@ inline constexpr double most_slices = 4096;
 /// @param k2  squared wavenumber of the slice, in either convention of time
 StackWave through(const Slice& slice, const std::complex<double>& xi,
                   const std::complex<double>& k2, const StackWave& below);
+
+/// The same without losses, and how many zeros of pressure lie in what was passed.
+struct RealWave {
+    double flow = 0, pressure = 0;
+    std::size_t zeros = 0;
+};
+RealWave through(const Slice& slice, double xi, double k2, const RealWave& below);
 
 }  // namespace seautils::propagation
 

@@ -25,10 +25,9 @@ Complex diagonal(const Edge& edge, const Mesh& m, std::size_t node, double slope
     return -edge_row(edge.admittance(xi, water), q, slope, m.step_m) / t;
 }
 
-double real_diagonal(const Edge& edge, const Mesh& m, std::size_t node, double slope, double xi) {
+double real_diagonal(double admittance, const Mesh& m, std::size_t node, double slope, double xi) {
     const double q = m.k2[node] - xi;
-    return -edge_row(edge.real_admittance(xi), q, slope, m.step_m) /
-           (1 + m.step_m * m.step_m / 12 * q);
+    return -edge_row(admittance, q, slope, m.step_m) / (1 + m.step_m * m.step_m / 12 * q);
 }
 
 /// Derivative outward at an end of the column, of what its interpolation has there.
@@ -71,7 +70,8 @@ std::array<std::size_t, count_lanes> roots_above(const Mesh& m,
     };
     if (m.first == 0) {
         for (std::size_t l = 0; l < n; ++l)
-            edge[l] = real_diagonal(m.guide.surface, m, 0, m.surface_slope, xi[l]);
+            edge[l] =
+                real_diagonal(m.guide.surface.real_admittance(xi[l]), m, 0, m.surface_slope, xi[l]);
         take(edge);
     }
     for (std::size_t j = 1; j + 1 < nodes; ++j) {
@@ -80,8 +80,12 @@ std::array<std::size_t, count_lanes> roots_above(const Mesh& m,
         take(a);
     }
     if (m.last + 1 == nodes) {
-        for (std::size_t l = 0; l < n; ++l)
-            edge[l] = real_diagonal(m.guide.bottom, m, m.last, m.bottom_slope, xi[l]);
+        // Zeros in the layers are of roots above, too.
+        for (std::size_t l = 0; l < n; ++l) {
+            const Edge::RealStack bottom = m.guide.bottom.real_stack(xi[l]);
+            edge[l] = real_diagonal(bottom.admittance, m, m.last, m.bottom_slope, xi[l]);
+            count[l] += static_cast<double>(bottom.zeros);
+        }
         take(edge);
     }
     std::array<std::size_t, n> result;

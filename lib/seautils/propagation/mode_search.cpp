@@ -34,7 +34,8 @@ std::vector<std::size_t> count(const Mesh& mesh, const std::vector<double>& xi) 
 
 /// Brackets evenly spaced in the vertical wavenumber, as modes nearly are.
 std::vector<Bracket> first_brackets(const Mesh& mesh, double low) {
-    const double most = *std::max_element(mesh.k2.begin(), mesh.k2.end());
+    const double most =
+        std::max(*std::max_element(mesh.k2.begin(), mesh.k2.end()), mesh.guide.bottom.most_k2());
     const double high = most + 1e-9 * std::abs(most);
     const std::size_t total = count_modes(mesh, low), n = std::max<std::size_t>(8, total * 3 / 2);
     std::vector<double> xi;
@@ -196,15 +197,51 @@ Interpolation interpolation(const Mesh& mesh, double depth_m) {
 
 }  // namespace
 
+namespace {
+
+/// Modes of layers by themselves lie as close as they like to others, and no estimate tells them apart: losses grow from
+/// nothing in steps, and each mode is followed.
+std::vector<Complex> followed(const Waveguide& guide, double least_xi, std::size_t steps) {
+    constexpr int stages = 12;
+    std::vector<Complex> xi, before;
+    for (int stage = 0; stage < stages; ++stage) {
+        const Edge bottom = guide.bottom.losing(static_cast<double>(stage) / stages);
+        const Waveguide now{guide.column, guide.surface, bottom, guide.omega,
+                            guide.absorption_np_per_m};
+        Polisher polisher(now, steps);
+        const Mesh& mesh = polisher.mesh();
+        if (stage == 0) before = xi = starts(mesh, isolated(mesh, least_xi));
+        const double scale = *std::max_element(mesh.k2.begin(), mesh.k2.end());
+        for (std::size_t k = 0; k < xi.size(); k += polish_lanes) {
+            TwistedRows::Xis lanes = lanes_of(xi, k), ahead = lanes, last = lanes_of(before, k);
+            for (std::size_t l = 0; stage > 1 && l < polish_lanes; ++l)
+                ahead[l] += lanes[l] - last[l];
+            polisher.polish(ahead, scale, 1e-9, 12);
+            for (std::size_t l = 0; l < polish_lanes && k + l < xi.size(); ++l) {
+                before[k + l] = lanes[l];
+                xi[k + l] = ahead[l];
+            }
+        }
+    }
+    for (std::size_t k = 0; k < xi.size(); ++k) xi[k] += xi[k] - before[k];
+    return xi;
+}
+
+}  // namespace
+
 std::size_t count_modes(const Mesh& mesh, double least_xi) { return count(mesh, {least_xi})[0]; }
 
 ModeSet find_modes(const Waveguide& guide, double least_xi, std::size_t steps,
                    const std::vector<double>& depth_m) {
+    const bool layered = guide.bottom.slices() > 0;
+    // Modes of layers do not move between meshes as their neighbours do: no mode may move far.
+    if (layered) steps *= 2;
     Polisher coarse(guide, steps), fine(guide, steps * 3 / 2);
     const double scale = *std::max_element(coarse.mesh().k2.begin(), coarse.mesh().k2.end());
     const double ratio = static_cast<double>(steps * 3 / 2) / static_cast<double>(steps);
     const double extrapolated = 1 / (ratio * ratio * ratio * ratio - 1);
-    std::vector<Complex> xi = starts(coarse.mesh(), isolated(coarse.mesh(), least_xi));
+    std::vector<Complex> xi = layered ? followed(guide, least_xi, steps)
+                                      : starts(coarse.mesh(), isolated(coarse.mesh(), least_xi));
     const std::size_t sought = xi.size();
     for (std::size_t k = 0; k < xi.size(); k += polish_lanes) {
         TwistedRows::Xis lanes = lanes_of(xi, k);
@@ -230,7 +267,7 @@ ModeSet find_modes(const Waveguide& guide, double least_xi, std::size_t steps,
             mode.correction = (lanes[l] - xi[k + l]) * extrapolated;
             mode.xi = lanes[l] + mode.correction;
             if (!std::isfinite(std::abs(mode.xi))) continue;
-            shift = lanes[l] - xi[k + l];
+            if (!layered) shift = lanes[l] - xi[k + l];
             for (const Interpolation& i : at) {
                 Complex sum = 0;
                 for (std::size_t a = 0; a < 6; ++a) sum += i.weights[a] * u[l][i.first + a];

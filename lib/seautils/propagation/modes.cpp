@@ -73,6 +73,10 @@ Plan plan(const LevelSea& sea, double xi) {
     if (modes > most_modes || modes * n > most_mode_nodes)
         throw DataError(fmt::format("modes: {} on {} nodes are more than {} on {} (rays can)",
                                     modes, n, most_modes, most_mode_nodes / most_modes));
+    if (modes * sea.bottom.slices() > most_mode_slices)
+        throw DataError(
+            fmt::format("modes: {} through layers of {} slices are more than {} of them (rays can)",
+                        modes, sea.bottom.slices(), most_mode_slices));
     return {xi, n, modes};
 }
 
@@ -266,8 +270,6 @@ bool holds_modes(const Environment& e) {
 
 Field mode_field(const Environment& environment, const FieldOptions& options) {
     const LevelSea sea(environment, options, "modes");
-    if (!environment.bottom.layers.empty())
-        throw DataError("modes: bottom.layers is not empty (wavenumber and rays can)");
     if (!holds_modes(environment))
         throw DataError("modes: a boundary reflects nothing, so there are none (rays can)");
     const Plan what = plan(environment, sea);

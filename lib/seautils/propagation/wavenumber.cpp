@@ -199,7 +199,8 @@ std::size_t steps_of(const Environment& e, const LevelSea& sea, const Contour& c
         24.0, std::ceil(std::sqrt(sea.most_k2) * sea.column.height_m() / radians_per_step));
     const double receivers = static_cast<double>(e.receivers.range_m.size()) *
                              static_cast<double>(sea.depth_m.size() + 20);
-    const double work = static_cast<double>(c.samples) * (10 * steps + receivers);
+    const double work = static_cast<double>(c.samples) *
+                        (10 * steps + receivers + 120 * static_cast<double>(sea.bottom.slices()));
     if (!(work <= static_cast<double>(most_wavenumber_work)))
         throw DataError(
             fmt::format("wavenumber: {} samples on {:.0f} nodes for {:.0f} receivers are more work "
