@@ -424,24 +424,75 @@ lloyd_env() {
     run_quiet tl-model --engine bellhop --engine-memory 64 lloyd.json
 }
 
+# A stand-in for OAST: it finds depths and frequency in what it is fed, and leaves plots of Lloyd's mirror over range,
+# as the guide of OASES has them.
+oast() { # [SCRIPT]: what is done behind it
+    stand_in oast 'cp sea.dat "$here/fed.dat"
+awk "
+NR == 3 { k = 6.283185307179586 * \$1 / 1500 }
+NR > 4 && NF == 1 && !source { source = \$1; next }
+source && NF == 4 && !count { first = \$1; last = \$2; count = \$3 }
+END {
+    print 128, \"MODULO\" > \"sea.plp\"
+    for (i = 0; i < count; i++) {
+        depth = count > 1 ? first + (last - first) * i / (count - 1) : first
+        printf \" OAST  STLRAN\\n LOSS\\n t\\n 1 LABELS\\n RD: %.1f m\$\\n 20\\n 12\\n 0\\n 0\\n 2\\n 1\\n 1\\n Range (km)\$\\n LIN\\n\", depth > \"sea.plp\"
+        printf \" 80\\n 20\\n 10\\n 1\\n Normal stress (dB//1Pa)\$\\n LIN\\n 1 NC\\n 601 N\\n 0.1 XMIN\\n 0.25-002 DX\\n 0 YMIN\\n 0 DY\\n\" > \"sea.plp\"
+        for (n = 0; n < 601; n++) {
+            r = 100 + 2.5 * n
+            up = sqrt(r * r + (depth - source) ^ 2); down = sqrt(r * r + (depth + source) ^ 2)
+            re = cos(k * up) / up - cos(k * down) / down; im = sin(k * up) / up - sin(k * down) / down
+            printf \"%15.6E\\n\", -10 * log(re * re + im * im) / log(10) > \"sea.plt\"
+        }
+    }
+    print \" OAST  PLTEND\" > \"sea.plp\"
+}" sea.dat
+'"${1-}"
+}
+
+@test "tl-model: OAST of OASES, where it behaves and where not" {
+    oast
+    run_quiet tl-model --engine oases --sum coherent -f csv lloyd.json
+    # its curves are those of the closed form: 50.559 dB at 500 m and 10 m, 68.697 at 1500 m
+    assert_near 0.02 "$(sed -n 2,3p <<< "$output" | cut -d, -f2,4 | tr ',\n' '  ')" = 50.559 68.697 48.686 66.685
+    assert_equal "$(sed -n 2p fed.dat)" 'N T J'
+    # depths that are not evenly spaced: one by one
+    jq '.receivers.depth_m = [10, 30, 100, 700]' lloyd.json > depths.json
+    run_quiet tl-model --engine oases --sum coherent -f csv depths.json
+    assert_equal "$(sed -n 2p <<< "$output" | cut -d, -f2)" 50.56
+    assert_equal "$(sed -n 5p <<< "$output")" 700,,,
+    assert_says 1 'lloyd.json: oases adds coherently alone (--sum coherent)' tl-model --engine oases lloyd.json
+    local what
+    while IFS='|' read -r script what; do
+        oast "$script"
+        assert_says 1 "lloyd.json: $what" tl-model --engine oases --sum coherent lloyd.json
+    done << 'END'
+rm sea.plt|oast left no result
+rm sea.plp|oast: its result is not as it should be: the .plp file: line 1: it ends where MODULO is expected
+head -n 700 sea.plt > cut; mv cut sea.plt|oast: its result is not as it should be: the .plt file: it ends before value 701
+sed -i '5s/.*/ NaN/' sea.plt|oast: its result is not as it should be: the .plt file: value 5: 'NaN' is not a number
+sed -i 's/Range (km)/Depth (m)/' sea.plp|oast: its result has 0 plots over range in place of 2
+sed -i 's/0.25-002/0.10-002/' sea.plp|oast: its curves end at 0.7 km, before 1 km
+exit 3|oast ended with status 3
+END
+}
+
 @test "tl-model: nothing of a run by others is left behind" {
     mkdir tmp
-    export TMPDIR=$PWD/tmp
     stand_in bellhop 'touch sea.shd other; mkdir deep; touch deep/file; exit 1'
-    run -1 tl-model --engine bellhop lloyd.json
+    TMPDIR=$PWD/tmp run -1 tl-model --engine bellhop lloyd.json
     assert_equal "$(ls tmp)" ''
 }
 
 @test "tl-model: a signal ends the engine of others, too, and leaves nothing" {
     mkdir tmp
-    export TMPDIR=$PWD/tmp
     stand_in bellhop 'echo $$ > "$here/pid.new"; mv "$here/pid.new" "$here/pid"; sleep 60'
     jq -c '{id: 1}' <<< '{}' > request.ndjson
     for name in TERM INT HUP; do
         rm -f pid
         (
             trap - INT
-            exec tl-model --engine bellhop lloyd.json
+            TMPDIR=$PWD/tmp exec tl-model --engine bellhop lloyd.json
         ) &
         until [[ -s pid ]]; do sleep 0.02; done
         assert_equal "$(find tmp -mindepth 1 -maxdepth 1 | wc -l)" 1
@@ -454,7 +505,7 @@ lloyd_env() {
     done
     # of a stream of requests as of a file
     rm -f pid
-    tl-model --base lloyd.json --engine bellhop request.ndjson > /dev/null 2>&1 &
+    TMPDIR=$PWD/tmp tl-model --base lloyd.json --engine bellhop request.ndjson > /dev/null 2>&1 &
     until [[ -s pid ]]; do sleep 0.02; done
     kill $!
     wait $! && fail "it ended as if nothing had been"

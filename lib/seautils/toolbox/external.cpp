@@ -5,6 +5,7 @@
 #include "seautils/toolbox/arr_file.hpp"
 #include "seautils/toolbox/env_writer.hpp"
 #include "seautils/toolbox/green.hpp"
+#include "seautils/toolbox/oast_file.hpp"
 #include "seautils/toolbox/shd_file.hpp"
 
 #include <fmt/format.h>
@@ -23,12 +24,13 @@ namespace pg = propagation;
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Program>, 5> programs{
+constexpr std::array<std::pair<std::string_view, Program>, 6> programs{
     {{"bellhop", Program::bellhop},
      {"bellhopcxx", Program::bellhopcxx},
      {"kraken", Program::kraken},
      {"krakenc", Program::krakenc},
-     {"scooter", Program::scooter}}};
+     {"scooter", Program::scooter},
+     {"oases", Program::oases}}};
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
@@ -84,6 +86,9 @@ public:
         if (result.empty()) throw DataError(name + " left no result");
         return result;
     }
+
+    void forget(const std::string& extension) const { std::remove(path(extension).c_str()); }
+    std::string file(const std::string& extension) const { return read_file(path(extension)); }
 
 private:
     std::string path(const std::string& extension) const {
@@ -178,21 +183,84 @@ std::vector<std::string> options_of(Program program, const ExternalRun& run) {
                                 std::max<std::uint64_t>(run.limits.memory_bytes >> 22U, 64))};
 }
 
+/// Spans of receivers' depths in the water that are equally spaced: all of them, or each by itself.
+std::vector<EvenDepths> even_depths(const std::vector<double>& depth_m) {
+    const std::size_t n = depth_m.size();
+    const double step_m =
+        n > 1 ? (depth_m.back() - depth_m.front()) / static_cast<double>(n - 1) : 0;
+    bool even = true;
+    for (std::size_t k = 0; k < n; ++k)
+        even = even && std::abs(depth_m[k] - depth_m[0] - step_m * static_cast<double>(k)) <
+                           1e-6 * step_m + 1e-9;
+    if (even) return {{depth_m.front(), depth_m.back(), n}};
+    std::vector<EvenDepths> each;
+    for (const double z : depth_m) each.push_back({z, z, 1});
+    return each;
+}
+
+/// Losses of OAST: level by level of the receivers that lie in the water.
+pg::Field oast_field(Run& one, const pg::Environment& e, const pg::FieldOptions& options) {
+    if (options.sum != pg::Sum::coherent)
+        throw DataError("oases adds coherently alone (--sum coherent)");
+    std::vector<double> depth_m;
+    for (const double z : e.receivers.depth_m)
+        if (z >= surface_depth_m(e, 0) && z <= bottom_depth_m(e, 0)) depth_m.push_back(z);
+    std::vector<PlotCurve> curves;
+    for (const EvenDepths& span :
+         depth_m.empty() ? std::vector<EvenDepths>{} : even_depths(depth_m)) {
+        one.feed({{"dat", write_oast(e, span)}});
+        one.forget("plp");
+        const std::string values = one.result_of("oast", {}, "plt");
+        std::vector<PlotCurve> some;
+        try {
+            some = read_plots(one.file("plp"), values);
+        } catch (const DataError& fault) {
+            throw DataError(std::string("oast: its result is not as it should be: ") +
+                            fault.what());
+        }
+        if (some.size() != span.count)
+            throw DataError(fmt::format("oast: its result has {} plots over range in place of {}",
+                                        some.size(), span.count));
+        curves.insert(curves.end(), some.begin(), some.end());
+    }
+    std::vector<std::complex<float>> pressure(e.receivers.depth_m.size() *
+                                              e.receivers.range_m.size());
+    std::size_t curve = 0;
+    const auto loss_db = [&](double range_m) {
+        try {
+            return value_at(curves[curve], range_m / 1000);
+        } catch (const DataError& fault) {
+            throw DataError(std::string("oast: ") + fault.what());
+        }
+    };
+    for (std::size_t z = 0, cell = 0; z < e.receivers.depth_m.size(); ++z) {
+        const bool is_wet = curve < depth_m.size() && e.receivers.depth_m[z] == depth_m[curve];
+        for (const double range_m : e.receivers.range_m) {
+            const double db = is_wet && range_m > 0 ? loss_db(range_m) : 0;
+            pressure[cell++] = static_cast<float>(std::pow(10, -db / 20));
+        }
+        curve += is_wet ? 1 : 0;
+    }
+    pg::Field field = field_of(e, options, pressure);
+    field.basis.remarks.emplace_back(
+        "losses are those of OAST between its ranges; pressures have no phase");
+    return field;
+}
+
 }  // namespace
 
 Program parse_program(std::string_view name) {
     for (const auto& [known, program] : programs)
         if (name == known) return program;
-    if (name == "oases")
-        throw DataError(
-            "engine 'oases' is not driven yet: nothing is known of the form of its results");
-    throw DataError(quote(name) + " is none of bellhop, bellhopcxx, kraken, krakenc, scooter");
+    throw DataError(quote(name) +
+                    " is none of bellhop, bellhopcxx, kraken, krakenc, scooter, oases");
 }
 
 pg::Field external_field(Program program, const pg::Environment& e, const pg::FieldOptions& options,
                          const ExternalRun& run) {
     const std::string name = name_of(program);
     Run one(run);
+    if (program == Program::oases) return oast_field(one, e, options);
     if (is_bellhop(program)) {
         one.feed(write_bellhop(e, options, false));
         const ShdFile shd = read_result(name, one.result_of(name, options_of(program, run), "shd"));

@@ -10,8 +10,9 @@
 
 namespace seautils::toolbox {
 
-/// Programs of others that compute a field. They must be installed (as NAME or NAME.exe), KRAKEN with FIELD.
-enum class Program : std::uint8_t { bellhop, bellhopcxx, kraken, krakenc, scooter };
+/// Programs of others that compute a field. They must be installed (as NAME or NAME.exe), KRAKEN with FIELD; of OASES it
+/// is OAST.
+enum class Program : std::uint8_t { bellhop, bellhopcxx, kraken, krakenc, scooter, oases };
 
 /// @throws DataError  another name
 Program parse_program(std::string_view name);

@@ -8,6 +8,7 @@ seautils_module(NAME toolbox
     external.cpp
     green.cpp
     list_directed.cpp
+    oast_file.cpp
     program.cpp
     shd_file.cpp
   DEPENDS core propagation LINK fmt::fmt)
