@@ -177,6 +177,11 @@ END
 {"sum":"LOUD"}|sum 'LOUD' is not in enum seautils.TlRequest.Sum
 {"frequenzy_hz":1}|field 'frequenzy_hz' is not in message seautils.TlRequest (did you mean 'frequency_hz'?)
 {"bottom":{"grain_phi":12}}|bottom.grain_phi 12 is outside -1 to 9
+{"bottom":{"layer_thickness_m":[4]}}|bottom.layer_speed_mps is not given
+{"bottom":{"layer_thickness_m":[4,5],"layer_speed_mps":[1480]}}|bottom.layer_thickness_m has 2 values, bottom.layer_speed_mps 1
+{"bottom":{"layer_density_gcm3":[4]}}|bottom.layer_thickness_m has 0 values, bottom.layer_density_gcm3 1
+{"bottom":{"layer_thickness_m":[-4],"layer_speed_mps":[1480]}}|bottom.layers[0].thickness_m -4 is outside 0.0001 to 20000 m
+{"surface":{"layer_thickness_m":[4],"layer_speed_mps":[1480]}}|surface.layer_thickness_m is for a bottom
 {"surface":{"magnitude":[1],"grazing_deg":[0],"phase_deg":[]}}|surface.grazing_deg has 1 value, surface.phase_deg 0
 END
 }
@@ -234,10 +239,34 @@ $whole
 {"id":7,"bottom":{"grain_phi":2},"fan":{"min_deg":-60,"max_deg":60,"beams":100}}
 {"id":8,"sum":"INCOHERENT","beam":"HAT","engine":"rays","min_amp":0.01,"baffle_from_deg":0,"baffle_to_deg":0,"smooth":true,"loss":true,"arrivals":true}
 {"id":9,"levels":{"source_level_db":1,"bandwidth_hz":1,"noise_db":1,"wind_mps":1,"beaufort":1,"shipping":1,"noise_fades":true,"array_gain_db":1,"threshold_db":1,"noise_depth_m":[0],"noise_at_depth_db":[1]}}
+{"id":10,"bottom":{"kind":"HALF_SPACE","sound_speed_mps":1700,"layer_thickness_m":[4,10],"layer_speed_mps":[1480,1600],"layer_bottom_speed_mps":[1520,1650],"layer_density_gcm3":[1.4,1.8],"layer_attenuation_db_per_wavelength":[0.1,0.5]}}
+{"id":11,"bottom":{"layer_thickness_m":[4],"layer_speed_mps":[1480]}}
 END
     run_quiet tl-model --engine rays requests
     assert_equal "$(jq -c 'select(.error)' <<< "$output")" ''
     assert_equal "$(tail -1 <<< "$output" | jq -c '[(.arrivals | length), (.arrivals[0] | .delay_spread_s >= 0, .within_20db >= 1)]')" '[2,true,true]'
+}
+
+@test "tl-model: layers of the bottom count until there are none" {
+    local layers='"layer_thickness_m":[3,2],"layer_speed_mps":[1600,1800],"layer_density_gcm3":[1.5,1.9]'
+    cat > requests << END
+$whole
+{"bottom":{$layers}}
+{"bottom":{"layer_attenuation_db_per_wavelength":[0,0],"layer_bottom_speed_mps":[1600,1800],$layers}}
+{"bottom":{"kind":"HALF_SPACE"}}
+END
+    run_quiet tl-model --engine rays requests
+    jq -c .tl_db <<< "$output" > losses
+    [[ $(sed -n 1p losses) != "$(sed -n 2p losses)" ]] || fail 'layers count for nothing'
+    assert_equal "$(sed -n 3p losses)" "$(sed -n 2p losses)"
+    assert_equal "$(sed -n 4p losses)" "$(sed -n 1p losses)"
+    # The same as a file says it.
+    jq '.bottom.layers = [
+        {"thickness_m": 3, "sound_speed_m_s": 1600, "density_g_cm3": 1.5},
+        {"thickness_m": 2, "sound_speed_top_m_s": 1800, "sound_speed_bottom_m_s": 1800, "density_g_cm3": 1.9}]' \
+        lloyd.json > layers.json
+    run_quiet tl-model --engine rays layers.json
+    assert_equal "$(jq -c .tl_db <<< "$output")" "$(sed -n 2p losses)"
 }
 
 @test "tl-model: levels give signal to noise ratios" {

@@ -60,7 +60,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::optional<tb::Files> again;
         if (is_sound)
             fuzz::accepted([&] {
-                again = tb::write_bellhop(file->environment, file->options, file->arrivals);
+                const auto& e = file->environment;
+                again = e.bottom.layers.empty()
+                            ? tb::write_bellhop(e, file->options, file->arrivals)
+                            : tb::write_kraken(e, file->options, {1400, 1600}, 1);
             });
         if (again) fuzz::require(read(*again).has_value(), "what is written is read");
     }

@@ -131,10 +131,10 @@ private:
         double top_m = depth_m_, roughness_m = e_.bottom.roughness_m;
         for (const pg::SedimentLayer& l : e_.bottom.layers) {
             const double bottom_m = top_m + l.thickness_m;
-            line("0 {} {:.12g}", roughness_m, bottom_m);
-            line("{:.12g} {} 0 {} {} 0 /", top_m, l.sound_speed_top_mps, l.density_gcm3,
+            line("0 {} {:.15g}", roughness_m, bottom_m);
+            line("{:.15g} {} 0 {} {} 0 /", top_m, l.sound_speed_top_mps, l.density_gcm3,
                  l.attenuation_db_per_wavelength);
-            line("{:.12g} {} 0 {} {} 0 /", bottom_m, l.sound_speed_bottom_mps, l.density_gcm3,
+            line("{:.15g} {} 0 {} {} 0 /", bottom_m, l.sound_speed_bottom_mps, l.density_gcm3,
                  l.attenuation_db_per_wavelength);
             top_m = bottom_m;
             roughness_m = 0;
