@@ -38,7 +38,7 @@ Edge::Edge(const Boundary& b, const char* name, double frequency_hz, double wate
       roughness_m_(b.roughness_m),
       density_ratio_(water_density_gcm3 / b.density_gcm3),
       water_density_gcm3_(water_density_gcm3),
-      slices_(slices_of(b.layers, 2 * pi * frequency_hz)),
+      slices_(slices_of(b.layers, 2 * pi * frequency_hz, fine_slices)),
       compressional_(
           squared_wavenumber(frequency_hz, b.sound_speed_mps, b.attenuation_db_per_wavelength)) {
     if (kind_ == BoundaryKind::table)

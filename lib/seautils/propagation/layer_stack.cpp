@@ -9,9 +9,9 @@ namespace seautils::propagation {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double tolerance = 3e-4, pi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
-double wanted_slices(const SedimentLayer& l, double omega) {
+double wanted_slices(const SedimentLayer& l, double omega, double tolerance) {
     const double top = omega / l.sound_speed_top_mps, bottom = omega / l.sound_speed_bottom_mps;
     const double change = std::abs(top * top - bottom * bottom);
     return std::max(1.0, std::ceil(l.thickness_m * std::sqrt(change / (12 * tolerance))));
@@ -28,13 +28,14 @@ double size(const Complex& z) { return std::abs(z.real()) + std::abs(z.imag()); 
 
 }  // namespace
 
-std::vector<Slice> slices_of(const std::vector<SedimentLayer>& layers, double omega) {
+std::vector<Slice> slices_of(const std::vector<SedimentLayer>& layers, double omega,
+                             double tolerance) {
     double wanted = 0;
-    for (const SedimentLayer& l : layers) wanted += wanted_slices(l, omega);
-    const double share = std::min(1.0, most_slices / wanted);
+    for (const SedimentLayer& l : layers) wanted += wanted_slices(l, omega, tolerance);
+    const double share = wanted > most_slices ? most_slices / wanted : 1;
     std::vector<Slice> slices;
     for (auto l = layers.rbegin(); l != layers.rend(); ++l) {
-        const double n = std::max(1.0, std::floor(wanted_slices(*l, omega) * share));
+        const double n = std::max(1.0, std::floor(wanted_slices(*l, omega, tolerance) * share));
         for (double k = n - 0.5; k > 0; --k)
             slices.push_back({l->thickness_m / n,
                               std::lerp(l->sound_speed_top_mps, l->sound_speed_bottom_mps, k / n),

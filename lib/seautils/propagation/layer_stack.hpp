@@ -22,11 +22,14 @@ struct Slice {
 };
 
 /// Layers as homogeneous slices, from the lowest up. A layer of one speed is one slice; one whose speed changes is so
-/// many that their thickness h and the change Δ(k²) over the layer hold h² Δ(k²) / 12 < 3e-4, which is about the error of
-/// the phase, and the relative one of the amplitude; where all layers would have more than most_slices, all have fewer in
-/// proportion.
-std::vector<Slice> slices_of(const std::vector<SedimentLayer>& layers, double omega_rad_per_s);
+/// many that their thickness h and the change Δ(k²) over the layer hold h² Δ(k²) / 12 < tolerance, which is about the
+/// error of the phase, and the relative one of the amplitude; where all layers would have more than most_slices, all
+/// have fewer in proportion.
+std::vector<Slice> slices_of(const std::vector<SedimentLayer>& layers, double omega_rad_per_s,
+                             double tolerance);
 inline constexpr double most_slices = 4096;
+/// For waves, and for rays, which reflect often and are less exact by themselves.
+inline constexpr double fine_slices = 3e-4, slices_of_rays = 3e-3;
 
 /// From the lower side of a slice to its upper one. Nothing in it grows, however thick the slice and steep the
 /// decay: it is a reflection that comes back weaker.

@@ -17,7 +17,7 @@ void bounce(const RaySea& sea, Leg& leg) {
     }
     const double speed_mps = leg.speed_mps + leg.range_gradient * leg.whole.along_m +
                              leg.depth_gradient * leg.whole.down_m;
-    const auto r = reflection_coefficient(wall.boundary, sea.frequency_hz,
+    const auto r = reflection_coefficient(wall.boundary, wall.slices, sea.frequency_hz,
                                           std::asin(std::min(1., leg.grazing_sine)), speed_mps,
                                           sea.density_gcm3);
     leg.magnitude = std::abs(r);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace seautils::propagation {
 namespace {
@@ -200,6 +201,8 @@ RaySea make_ray_sea(const Environment& environment, std::vector<std::string>& re
     RaySea sea;
     sea.surface = wall_of(environment.surface, environment.surface_line, 0);
     sea.bottom = wall_of(environment.bottom, environment.bottom_line, environment.bottom_depth_m);
+    sea.bottom.slices = slices_of(environment.bottom.layers,
+                                  2 * std::numbers::pi * environment.frequency_hz, slices_of_rays);
     const Table table = table_of(environment.water, remarks);
     sea.strip_edge_m = strip_edges(table, reach_m(environment));
     sea.layer_edge_m = layer_edges(table, environment, sea);

@@ -2,6 +2,7 @@
 #define SEAUTILS_PROPAGATION_RAY_SEA_HPP
 
 #include "seautils/propagation/environment.hpp"
+#include "seautils/propagation/layer_stack.hpp"
 
 #include <string>
 #include <vector>
@@ -36,8 +37,9 @@ struct Facet {
 struct Wall {
     Boundary boundary;
     bool level = true;
-    double depth_m = 0;        ///< where level
-    std::vector<Facet> facet;  ///< else; from -far_m to far_m
+    double depth_m = 0;           ///< where level
+    std::vector<Facet> facet;     ///< else; from -far_m to far_m
+    std::vector<Slice> slices{};  ///< of the boundary's layers
 
     double depth_at(double range_m) const;
     /// The facet over a range.

@@ -2,7 +2,6 @@
 
 #include "seautils/core/error.hpp"
 #include "seautils/propagation/absorption.hpp"
-#include "seautils/propagation/layer_stack.hpp"
 
 #include <fmt/format.h>
 
@@ -44,19 +43,18 @@ StackWave half_space(const Boundary& b, double omega, double kx) {
 }
 
 /// Of layers, if any, above a half-space or a perfect boundary.
-Complex stack(const Boundary& b, double omega, double grazing_rad, double speed_mps,
-              double density_gcm3) {
+Complex stack(const Boundary& b, const std::vector<Slice>& slices, double omega, double grazing_rad,
+              double speed_mps, double density_gcm3) {
     const double k = omega / speed_mps, kx = k * std::cos(grazing_rad),
                  kz = k * std::sin(grazing_rad);
     StackWave wave{1, 0};
     if (b.kind == BoundaryKind::rigid) wave = {0, 1};
     if (b.kind == BoundaryKind::half_space) wave = half_space(b, omega, kx);
-    if (!b.layers.empty())
-        for (const Slice& slice : slices_of(b.layers, omega)) {
-            const Complex ks =
-                wavenumber(omega, slice.sound_speed_mps, slice.attenuation_db_per_wavelength);
-            wave = through(slice, kx * kx, ks * ks, wave);
-        }
+    for (const Slice& slice : slices) {
+        const Complex ks =
+            wavenumber(omega, slice.sound_speed_mps, slice.attenuation_db_per_wavelength);
+        wave = through(slice, kx * kx, ks * ks, wave);
+    }
     const Complex above = density_gcm3 * wave.flow, below = Complex(0, kz) * wave.pressure;
     return -(above - below) / (above + below);
 }
@@ -100,12 +98,20 @@ double attenuation_db_per_m_khz(double mz) {
 
 Complex reflection_coefficient(const Boundary& boundary, double frequency_hz, double grazing_rad,
                                double sound_speed_mps, double density_gcm3) {
+    return reflection_coefficient(boundary,
+                                  slices_of(boundary.layers, 2 * pi * frequency_hz, fine_slices),
+                                  frequency_hz, grazing_rad, sound_speed_mps, density_gcm3);
+}
+
+Complex reflection_coefficient(const Boundary& boundary, const std::vector<Slice>& slices,
+                               double frequency_hz, double grazing_rad, double sound_speed_mps,
+                               double density_gcm3) {
     const double omega = 2 * pi * frequency_hz;
     Complex r = -1;
     if (boundary.kind == BoundaryKind::table)
         r = table(boundary.table, grazing_rad * 180 / pi);
-    else if (boundary.kind == BoundaryKind::half_space || !boundary.layers.empty())
-        r = stack(boundary, omega, grazing_rad, sound_speed_mps, density_gcm3);
+    else if (boundary.kind == BoundaryKind::half_space || !slices.empty())
+        r = stack(boundary, slices, omega, grazing_rad, sound_speed_mps, density_gcm3);
     else if (boundary.kind == BoundaryKind::rigid)
         r = 1;
     if (boundary.roughness_m > 0) {
