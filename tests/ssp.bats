@@ -241,6 +241,77 @@ ssp: odd.csv: profile of 39 levels of 39 samples, left out 1 incomplete, 1 out_o
     assert_equal "$(printf '%s\n' "$sample" "$bare" | ssp --clock input | jq -c '[.time, .samples]')" '["2024-05-01T12:00:00Z",2]'
 }
 
+# --- a sensor that falls silent ---
+
+# at MINUTE DEPTH: a sample
+at() {
+    local now=${sample/12:00/12:0$1}
+    echo "${now/:10,/:$2,}"
+}
+
+# answers_before_the_end N COMMAND...: what it writes of so many samples a minute apart, while its pipe stays open
+answers_before_the_end() {
+    local n=$1 hold pid k
+    shift
+    rm -f live.pipe
+    mkfifo live.pipe
+    "$@" < live.pipe > got 2> said 3>&- &
+    pid=$!
+    exec {hold}> live.pipe
+    for ((k = 0; k < n; k++)); do at "$k" "1$k" >&"$hold"; done
+    for ((k = 0; k < 200; k++)); do
+        [[ ! -s got ]] || break
+        sleep 0.05
+    done
+    jq -c '[.time, .samples]' got
+    kill -0 "$pid" # so it was no end of its input that made it answer
+    { at 8 10 && at 9 30; } >&"$hold"
+    exec {hold}>&-
+    wait "$pid"
+}
+
+@test "ssp: what a silent sensor has measured is written after --silence" {
+    for split in window leg cast; do
+        run answers_before_the_end 3 ssp --split $split --silence 0.2
+        assert_output '["2024-05-01T12:02:00Z",3]'
+        assert_equal "$(jq -c .samples got | xargs)" '3 2'
+        assert_equal "$(cat said)" ''
+    done
+}
+
+@test "ssp: with --clock input silence is that between the samples' times" {
+    printf '%s\n' "$sample" "${sample/12:00:00/12:00:30}" "${sample/12:00:00/12:01:31}" > gap.ndjson
+    silence() { ssp --clock input --split cast --silence "$1" gap.ndjson | jq -c .samples | xargs; }
+    assert_equal "$(silence 60)" '2 1'
+    assert_equal "$(silence 62)" '3'
+    assert_equal "$(silence 20)" '1 1 1'
+    # what was written after each sample is not written again
+    assert_equal "$(ssp --clock input --every 0 --silence 60 gap.ndjson | jq -c .samples | xargs)" '1 2 1'
+    # a scan that is left out breaks no silence, and tells the time
+    sed -n '1p; 2s/"depth_m":10/"depth_m":-9/p; 3p' gap.ndjson | ssp --clock input --split cast --silence 20 > got
+    assert_equal "$(jq -c .samples got | xargs)" '1 1'
+    # without the option nothing is split, and lines are counted as ever
+    assert_equal "$(ssp --clock input --split cast gap.ndjson | jq -c .samples)" 3
+    run -1 --separate-stderr ssp --silence 9 <<< "$sample"$'\n\n'"{\"depth_m\":"
+    assert_regex "$stderr" '^ssp: <stdin>:3: '
+}
+
+@test "ssp: a profile that waits for silence is written where it is told to end" {
+    echo "$sample" > in
+    mkfifo quiet.pipe
+    ssp -v --silence 1000 < quiet.pipe > got 2> said 3>&- &
+    pid=$!
+    exec {hold}> quiet.pipe
+    printf '%s\n' "${sample/:10,/:-9,}" "$sample" >&"$hold"
+    for ((k = 0; k < 200; k++)); do grep -q 'left out' said && break || sleep 0.05; done
+    sleep 0.1
+    kill $pid
+    wait $pid || assert_equal $? 143
+    exec {hold}>&-
+    assert_equal "$(jq -c .samples got)" 1
+    assert_regex "$(cat said)" '<stdin>:1: left out'
+}
+
 # --- real casts ---
 
 @test "ssp: every cast of the shared data goes through" {
@@ -372,6 +443,7 @@ ssp: bad.csv:4: 1 column where the header has 3"
 @test "ssp: options are checked, with their bounds" {
     assert_refused "option --bin: '0' is outside 0.01 to 1000 m" --bin 0
     assert_refused "option --bin: 'x' is outside 0.01 to 1000 m" --bin x
+    assert_refused "option --silence: '0' is outside 0.001 to 2592000 s" --silence 0
     assert_refused "option --latitude: '91' is outside -90 to 90 degrees" --latitude 91
     assert_refused "option --formula: 'wilson' is none of chen-millero, del-grosso, mackenzie, leroy, medwin, coppens, measured" --formula wilson
     assert_refused 'unknown option --depth (try --help)' --depth

@@ -6,12 +6,14 @@
 #include "ssp_records.hpp"
 
 #include "seautils/acoustics/cnv.hpp"
+#include "seautils/cli/loop.hpp"
 #include "seautils/stream/whole_file.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -117,7 +119,8 @@ public:
     void run() {
         const std::vector<std::string> files =
             io_.files.empty() ? std::vector<std::string>{"-"} : io_.files;
-        for (const std::string& file : files) run(file);
+        for (const std::string& file : files)
+            if (io_.ended_by == 0) run(file);
     }
 
 private:
@@ -129,10 +132,10 @@ private:
         written_ = said_ = 0;
         io_.files = {file};
         const bool binary = io_.input_format == "delimited";
-        io_.for_each(
-            binary ? cli::Framing::delimited : cli::Framing::lines, [this](std::string_view bytes) {
-                reader_->read(bytes, [this](acoustics::Reading& reading) { take(reading); });
-            });
+        read(binary ? cli::Framing::delimited : cli::Framing::lines,
+             [this](std::string_view bytes) {
+                 reader_->read(bytes, [this](acoustics::Reading& reading) { take(reading); });
+             });
         windows_.end();
         const std::uint64_t scans = total_.dropped() + total_[acoustics::Drop::none];
         if (written_ == 0 && scans > 0)
@@ -140,8 +143,28 @@ private:
                                          reasons(total_) + ")");
     }
 
+    void read(cli::Framing framing, const std::function<void(std::string_view)>& record) {
+        if (options_.silence_ns == 0) return io_.for_each(framing, record);
+        loop_.emplace(io_);
+        loop_->inputs(framing, record);
+        loop_->on_wake([this] { windows_.end(); });
+        loop_->run();
+        loop_.reset();
+    }
+
+    /// Silence is counted from the last sample that counts; by the clock of the input from its time.
+    void await_silence() {
+        const std::int64_t now = io_.clock.steady_ns();
+        if (loop_ && now > 0) loop_->wake_at_steady(now + options_.silence_ns);
+    }
+
+    void advance(std::int64_t time_ns) {
+        if (loop_) return loop_->advance(time_ns);
+        io_.clock.advance(time_ns);
+    }
+
     void take(acoustics::Reading& reading) {
-        reading.line = io_.record_number();
+        reading.line = loop_ ? loop_->record_number() : io_.record_number();
         set_time(reading);
         const double latitude = reading[acoustics::Quantity::latitude_deg];
         const double longitude = reading[acoustics::Quantity::longitude_deg];
@@ -156,12 +179,13 @@ private:
         }
         if (!std::isnan(latitude)) latitude_deg_ = latitude;
         if (!std::isnan(longitude)) longitude_deg_ = longitude;
+        await_silence();
         windows_.add(sample);
     }
 
     /// Samples that come one by one without a time are of now, and those of a replay of then.
     void set_time(acoustics::Reading& reading) {
-        if (reading.time_ns != acoustics::no_time) return io_.clock.advance(reading.time_ns);
+        if (reading.time_ns != acoustics::no_time) return advance(reading.time_ns);
         if (!reader_->is_records() || !(is_live_ || io_.clock.is_input())) return;
         const std::int64_t now = io_.clock.now_ns();
         if (now > 0) reading.time_ns = now;
@@ -253,6 +277,7 @@ private:
     acoustics::Extending extending_;
     std::optional<acoustics::Profile> climatology_;
     std::unique_ptr<ScanReader> reader_;
+    std::optional<cli::Loop> loop_;  ///< where silence is waited for
     ProfileWriter writer_;
     ProfileCsv csv_;
     std::string name_, bytes_;

@@ -41,6 +41,8 @@ public:
         number(app, "--every", every_s_,
                "A window is due so often; 0: after each sample (the window)", {0, 1e9, " s"},
                "SECONDS");
+        number(app, "--silence", silence_s_, "What is there is due when nothing comes for so long",
+               {0.001, 2592000, " s"}, "SECONDS");
         number(app, "--bin", bin_m_, "Height of a bin (1)", {0.01, 1000, " m"}, "METRES");
         number(app, "--turn", turn_m_, "A leg ends where the sensor comes back by this (10)",
                {0.1, 1000, " m"}, "METRES");
@@ -70,6 +72,7 @@ public:
         reduction.salinity = salinity_;
         reduction.latitude_deg = latitude_deg_;
         settle_windows();
+        silence_ns = std::llround(silence_s_.value_or(0) * 1e9);
         binning.bin_m = bin_m_.value_or(1);
         binning.cleaning = {.spike_deviations = spike_.value_or(5),
                             .loop_m = loop_m_.value_or(0.1),
@@ -91,6 +94,7 @@ public:
     acoustics::Windowing windowing;
     acoustics::Binning binning;
     acoustics::Extending extending;
+    std::int64_t silence_ns = 0;  ///< 0: a sensor may be silent for ever
     bool extends = false, to_end_of_climatology = false;
     std::string climatology;
 
@@ -147,8 +151,8 @@ private:
 
     std::vector<std::string> columns_;
     std::string formula_ = "chen-millero", split_ = "window";
-    std::optional<double> latitude_deg_, salinity_, window_s_, every_s_, bin_m_, turn_m_, spike_,
-        loop_m_, least_speed_mps_, extend_m_, blend_m_;
+    std::optional<double> latitude_deg_, salinity_, window_s_, every_s_, silence_s_, bin_m_,
+        turn_m_, spike_, loop_m_, least_speed_mps_, extend_m_, blend_m_;
 };
 
 }  // namespace seautils::tools

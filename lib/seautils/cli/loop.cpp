@@ -440,6 +440,10 @@ void Loop::on_signal(int number, std::function<void()> action) {
     impl_->handle_signal(number);
 }
 
+std::uint64_t Loop::record_number() const {
+    return impl_->taken == nullptr ? 0 : impl_->taken->source.input().count();
+}
+
 void Loop::before_wait(std::function<void()> action) { impl_->wait_hook = std::move(action); }
 
 std::string Loop::place() const {

@@ -38,6 +38,8 @@ public:
     /// `file:LINE: ` or `file:record N (byte OFFSET): `, of the record that `record` is called with: for what turns out
     /// to be wrong later.
     std::string place() const;
+    /// Its line or number, from 1 in each file; 0 before the first.
+    std::uint64_t record_number() const;
     /// Called when these have ended. Without this, run() returns then.
     void on_inputs_ended(std::function<void()> action);
 

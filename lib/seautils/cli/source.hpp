@@ -32,6 +32,7 @@ public:
         : name_(std::move(name)), input_(fd, std::move(path), std::move(options)) {}
 
     stream::Input& input() { return input_; }
+    const stream::Input& input() const { return input_; }
 
     /// `file:LINE: ` or `file:record N (byte OFFSET): `, of the last record read.
     std::string place(Framing framing) const;
