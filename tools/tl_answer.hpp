@@ -43,19 +43,7 @@ inline std::string_view name_of(pg::Beam beam) {
 }
 /// A loss in dB with two decimals; nothing where there is none.
 inline void append_hundredths(std::string& out, float db) {
-    if (std::isnan(db)) return;
-    if (!(std::fabs(db) < 1e9F)) return schema::append_double(out, double{db});
-    std::array<char, 16> text{};
-    std::size_t at = text.size();
-    std::uint64_t n = static_cast<std::uint64_t>(std::fabs(double{db}) * 100 + 0.5);
-    const bool is_negative = db < 0 && n > 0;
-    for (std::size_t k = 0; k < 3 || n > 0; ++k) {
-        if (k == 2) text[--at] = '.';
-        text[--at] = static_cast<char>('0' + n % 10);
-        n /= 10;
-    }
-    if (is_negative) text[--at] = '-';
-    out.append(text.data() + at, text.size() - at);
+    if (!std::isnan(db)) schema::append_fixed(out, double{db}, 2);
 }
 
 /// Losses as a table: ranges in the first row, depths in the first column; two decimals, `inf` where there is no energy,
@@ -96,10 +84,20 @@ public:
             "\"arrivals\":[";
         const char* comma = "";
         for (const pg::Arrival& a : receiver.arrivals) {
-            fmt::format_to(
-                std::back_inserter(out), "{}[{:.7g},{:.4f},{:.10f},{:.7g},{:.6f},{:.6f},{},{},{}]",
-                comma, a.amplitude, a.phase_deg, a.delay_s, a.absorption_db * per_db_s_ + 0.0,
-                a.launch_deg, a.arrival_deg, a.surface_bounces, a.bottom_bounces, a.caustics);
+            out += comma;
+            fmt::format_to(std::back_inserter(out), "[{:.7g},", a.amplitude);
+            schema::append_fixed(out, a.phase_deg, 4);
+            out += ',';
+            schema::append_fixed(out, a.delay_s, 10);
+            fmt::format_to(std::back_inserter(out), ",{:.7g},", a.absorption_db * per_db_s_ + 0.0);
+            schema::append_fixed(out, a.launch_deg, 6);
+            out += ',';
+            schema::append_fixed(out, a.arrival_deg, 6);
+            for (const std::uint32_t n : {a.surface_bounces, a.bottom_bounces, a.caustics}) {
+                out += ',';
+                schema::append_integer(out, std::uint64_t{n});
+            }
+            out += ']';
             comma = ",";
         }
         out += "]}\n";

@@ -166,4 +166,21 @@ TEST(SchemaNumber, AnyFloatReadsBackTheSameAndIsShortest) {
     }
 }
 
+TEST(SchemaNumber, FixedHasAllOfItsDecimals) {
+    const auto fixed = [](double x, unsigned decimals) {
+        std::string out;
+        append_fixed(out, x, decimals);
+        return out;
+    };
+    EXPECT_EQ(fixed(0, 2), "0.00");
+    EXPECT_EQ(fixed(-0.001, 2), "0.00");
+    EXPECT_EQ(fixed(-0.005, 2), "-0.01");
+    EXPECT_EQ(fixed(68.697, 2), "68.70");
+    EXPECT_EQ(fixed(179.99996, 4), "180.0000");
+    EXPECT_EQ(fixed(5.305768490123, 10), "5.3057684901");
+    EXPECT_EQ(fixed(-12, 0), "-12");
+    EXPECT_EQ(fixed(1e300, 2), "1e+300");
+    EXPECT_EQ(fixed(std::numeric_limits<double>::infinity(), 2), "inf");
+}
+
 }  // namespace seautils::schema

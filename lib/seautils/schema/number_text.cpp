@@ -10,9 +10,11 @@ namespace seautils::schema {
 
 namespace {
 
-constexpr std::array<double, 7> powers = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6};
+constexpr std::array<double, 13> powers = {1,   1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
+                                           1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
+constexpr unsigned most_short = 6;  ///< decimals of a short number
 
-/// Appends n / 10^decimals, |n| < 2^53, written as a decimal without trailing zeros.
+/// Appends n / 10^decimals, |n| < 2^53, written with all of these decimals.
 void append_scaled(std::string& out, std::int64_t n, unsigned decimals) {
     std::array<char, 32> digits;
     char* end = digits.data() + digits.size();
@@ -33,7 +35,7 @@ void append_scaled(std::string& out, std::int64_t n, unsigned decimals) {
 template <class Same>
 bool append_short(std::string& out, double x, Same same) {
     if (!(std::fabs(x) < 1e9) || (x == 0 && std::signbit(x))) return false;
-    for (unsigned d = 0; d < powers.size(); ++d) {
+    for (unsigned d = 0; d <= most_short; ++d) {
         const double scaled = x * powers[d];
         const auto n = static_cast<std::int64_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
         if (!same(static_cast<double>(n) / powers[d])) continue;
@@ -65,6 +67,13 @@ void append_float(std::string& out, float x) {
                      [x](double y) { return static_cast<float>(y) == x; }))
         return;
     fmt::format_to(std::back_inserter(out), "{}", x);
+}
+
+void append_fixed(std::string& out, double x, unsigned decimals) {
+    const double scaled = x * powers[decimals];
+    if (!(std::fabs(scaled) < 0x1p53)) return append_double(out, x);
+    append_scaled(out, static_cast<std::int64_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5),
+                  decimals);
 }
 
 }  // namespace seautils::schema

@@ -17,6 +17,11 @@ void append_double(std::string& out, double x);
 /// whole number below 1e9 is written out.
 void append_float(std::string& out, float x);
 
+/// So many decimals, all of them written: x to the nearest, halves away from 0. Never `-0.00`.
+/// Beyond 2^53 units of the last decimal, and what is no number, as append_double() has it.
+/// @param decimals  0 to 12
+void append_fixed(std::string& out, double x, unsigned decimals);
+
 }  // namespace seautils::schema
 
 #endif  // SEAUTILS_SCHEMA_NUMBER_TEXT_HPP
