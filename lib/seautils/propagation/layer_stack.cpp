@@ -54,6 +54,7 @@ StackWave through(const Slice& slice, const Complex& xi, const Complex& k2,
         below.flow * (1.0 + decayed) + below.pressure * square * across / slice.density_gcm3,
         below.pressure * (1.0 + decayed) + below.flow * across * slice.density_gcm3};
     const double scale = std::max(size(above.flow), size(above.pressure));
+    if (!(scale > 0)) return {gamma / slice.density_gcm3, 1};
     return {above.flow / scale, above.pressure / scale};
 }
 
@@ -77,6 +78,7 @@ RealWave through(const Slice& slice, double xi, double k2, const RealWave& below
         if (above.pressure * below.pressure < 0) ++above.zeros;
     }
     const double scale = std::max(std::abs(above.flow), std::abs(above.pressure));
+    if (!(scale > 0)) return {turns / density, 1, above.zeros};
     above.flow /= scale;
     above.pressure /= scale;
     return above;
