@@ -69,7 +69,7 @@ assert_nobody_in() {
 
 # units_here: copies of the units that run the tools under test
 units_here() {
-    cp "$units"/seautils-*@.* .
+    cp "$units"/seautils-*.{service,socket,target} .
     sed -i "s,^ExecStart=/usr/bin/,ExecStart=$SEAUTILS_BIN/," -- *.service
 }
 
@@ -127,12 +127,36 @@ units_here() {
         grep -qF "ListenFIFO=%t/seautils/%i/$name" "$units"/*.socket
     done
     for name in $(sed -n 's/^Standard[A-Za-z]*=fd:\(.*\)$/\1/p' "$units"/*.service); do
-        grep -qx "FileDescriptorName=$name" "$units/seautils-$name@.socket"
+        grep -qsx "FileDescriptorName=$name" "$units/seautils-$name"{,@}.socket
     done
     for name in $(grep -o '/etc/seautils/[a-z]*\.conf' "$units"/*.service | sed 's,.*/,,'); do
         assert [ -r "$units/etc/$name" ]
     done
     assert [ -r "$units/etc/ttyUSB0.env" ]
+}
+
+@test "systemd: from samples of a CTD to the depth at which to be heard" {
+    mkfifo samples.fifo states.fifo
+    sed "s,/etc/seautils,$units/etc," "$units/etc/depth.conf" > depth.conf
+    # as the units run them, but sooner
+    ssp -c "$units/etc/ssp.conf" --silence 1 <> samples.fifo 1<> states.fifo 2> ssp.log 3>&- &
+    started[ssp]=$!
+    depth-plan acomms -c depth.conf --every 0 <> states.fifo > decisions 2> depth-plan.log 3>&- &
+    started[depth-plan]=$!
+    local depth
+    for depth in 1 10 20 30 50 80 100; do
+        jq -nc --argjson z "$depth" '{time: (now - 20 + $z / 5 | todate), depth_m: $z, temperature_c: (20 - $z / 10), salinity: 35}'
+    done > samples.fifo
+    state() { jq -nc '{time: (now | todate), x_m: 0, y_m: 0, depth_m: 40, speed_mps: 1.5, heading_deg: 0, water_depth_m: 110, contact: {x_m: 0, y_m: -1000, depth_m: 30}}' > states.fifo; }
+    heard() {
+        state
+        jq -es 'any(.[]; .rule == "BEST" and .depth_m >= 5 and .depth_m <= 100 and .window_from_m == 1000)' decisions > /dev/null
+    }
+    soon heard
+    kill "${started[@]}"
+    wait "${started[@]}" || true
+    started=()
+    assert_equal "$(cat ssp.log depth-plan.log)" ''
 }
 
 # stage NODE STAGE: starts it as the units do, on FIFOs that somebody holds open
