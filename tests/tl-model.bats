@@ -541,6 +541,71 @@ END
     assert_equal "$(ls tmp)" ''
 }
 
+# --- receivers that are pairs ---
+
+# a track through Lloyd's field: back and forth, one receiver twice
+track='"depth_m":[100,10,100,10],"range_m":[1000,500,1500,500]'
+
+@test "tl-model: pairs of receivers have the grid's losses, in their order" {
+    tl-model --engine rays -f csv lloyd.json > grid.csv
+    jq -c ".receivers = {$track, layout: \"irregular\"}" lloyd.json > track.json
+    run_quiet tl-model --engine rays -f csv track.json
+    assert_output "range_m,depth_m,loss_db
+1000,100,$(sed -n 3p grid.csv | cut -d, -f3)
+500,10,$(sed -n 2p grid.csv | cut -d, -f2)
+1500,100,$(sed -n 3p grid.csv | cut -d, -f4)
+500,10,$(sed -n 2p grid.csv | cut -d, -f2)"
+    tail -n +2 <<< "$output" | cut -d, -f3 | xargs > wanted
+    # the same by requests, where pairs stay pairs until something else is said
+    printf '%s\n' "$whole" "{\"receivers\":{\"pairs\":true,$track}}" '{"receivers":{"depth_m":[10,100,10,100]}}' \
+        '{"receivers":{"pairs":false,"depth_m":[10],"range_m":[500]}}' '{"receivers":{"pairs":true,"range_m":[1,2]}}' > asked
+    run -1 --separate-stderr tl-model --engine rays asked
+    assert_equal "$(jq -c '[.pairs, (.tl_db | length)]' <<< "$output" | xargs)" '[null,6] [true,4] [true,4] [null,1] [null,0]'
+    assert_equal "$(jq -r 'select(.pairs) | .tl_db[]' <<< "${lines[1]}" | xargs printf '%.2f ')" "$(cat wanted) "
+    assert_equal "$stderr" 'tl-model: asked:5: receivers.depth_m has 1 value, receivers.range_m 2, which are no pairs'
+    assert_says 1 'track.json: smooth is for a grid of receivers, not for pairs' tl-model --smooth track.json
+}
+
+@test "tl-model: pairs in files of the Acoustics Toolbox, and to others' engines" {
+    jq -c ".receivers = {$track, layout: \"irregular\"} | del(.arrivals)" lloyd.json > track.json
+    tl-model --engine rays --beam hat -f csv track.json > wanted.csv
+    tl-model --engine rays --beam hat -f shd track.json > shd
+    assert_equal "$(od -An -j164 -N10 -c shd | tr -d ' ')" irregular
+    assert_equal "$(od -An -j1640 -N32 -tf4 shd | xargs -n2 | awk '{ printf "%.2f ", -20 * log($1) / log(10) }')" \
+        "$(tail -n +2 wanted.csv | cut -d, -f3 | xargs) "
+    run_quiet tl-model --arrivals -f arr track.json
+    assert_equal "$(sed -n '4,5p' <<< "$output")" $'4 100 10 100 10\n4 1000 500 1500 500'
+    run_quiet tl-model --arrivals track.json
+    assert_equal "$(jq -c '[.range_m, .depth_m, (.arrivals | length)]' <<< "$output" | xargs)" '[1000,100,2] [500,10,2] [1500,100,2] [500,10,2]'
+    # BELLHOP wants growing ranges, and gets them
+    assert_says 1 'track.json: bellhop takes pairs of receivers at ranges that differ: 500 m is there twice' tl-model --engine bellhop track.json
+    jq -c '.receivers |= (.depth_m |= .[0:3] | .range_m |= .[0:3])' track.json > three.json
+    jq -c '.receivers |= (.depth_m = [10, 100, 100] | .range_m |= sort)' three.json > sorted.json
+    tl-model --engine rays --beam hat -f shd sorted.json > good.shd
+    tl-model --arrivals -f arr sorted.json > good.arr
+    stand_in bellhop 'cp "$here/good.shd" "$1.shd"; cp "$here/good.arr" "$1.arr"; cp "$1.env" "$here/fed.env"'
+    run_quiet tl-model --engine bellhop -f csv three.json
+    assert_output "$(head -n 4 wanted.csv)"
+    assert_equal "$(grep -c "^'IB.*I'" fed.env)" 1
+    assert_equal "$(tl-model --engine rays --beam hat -f csv fed.env)" "$(tl-model --engine rays --beam hat -f csv sorted.json)"
+    assert_equal "$(tl-model --engine bellhop --arrivals three.json | jq -c .range_m | xargs)" '1000 500 1500'
+    assert_says 1 "three.json: engine 'kraken' takes no receivers that are pairs" tl-model --engine kraken three.json
+    tl-model --engine rays -f shd lloyd.json > good.shd
+    run -1 --separate-stderr tl-model --engine bellhop three.json
+}
+
+@test "tl-model: a hundred thousand pairs take a bounded time" {
+    skip_if_sanitized "time and memory are not those of a release"
+    awk 'BEGIN { printf "{\"layout\":\"irregular\",\"depth_m\":[1"; for (k = 1; k < 100000; k++) printf ",%.3f", 300 + 290 * sin(k / 7000)
+        printf "],\"range_m\":[1"; for (k = 1; k < 100000; k++) printf ",%.2f", 100 + k / 10; print "]}" }' > receivers
+    jq -c --slurpfile r receivers '.receivers = $r[0]' lloyd.json > long.json
+    run -0 bash -c "/usr/bin/env time -f '%U %M' tl-model --engine rays -f csv long.json 2>&1 > got"
+    read -r seconds kib <<< "$output"
+    assert_equal "$(wc -l < got)" 100001
+    assert [ "$kib" -le 262144 ]
+    [[ $(awk "BEGIN { print ($seconds < 60) }") == 1 ]] || fail "$seconds s"
+}
+
 @test "tl-model: options that are wrong" {
     while IFS='|' read -r options what; do
         # shellcheck disable=SC2086

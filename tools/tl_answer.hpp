@@ -46,10 +46,25 @@ inline void append_hundredths(std::string& out, float db) {
     if (!std::isnan(db)) schema::append_fixed(out, double{db}, 2);
 }
 
+/// Losses at pairs: a row for each, in their order.
+inline void append_pairs_csv(const pg::Receivers& receivers, const std::vector<float>& loss_db,
+                             std::string& out) {
+    out += "range_m,depth_m,loss_db\n";
+    for (std::size_t k = 0; k < loss_db.size(); ++k) {
+        schema::append_double(out, receivers.range_m[k]);
+        out += ',';
+        schema::append_double(out, receivers.depth_m[k]);
+        out += ',';
+        append_hundredths(out, loss_db[k]);
+        out += '\n';
+    }
+}
+
 /// Losses as a table: ranges in the first row, depths in the first column; two decimals, `inf` where there is no energy,
 /// and an empty cell where there is no value.
 inline void append_csv(const pg::Receivers& receivers, const std::vector<float>& loss_db,
                        std::string& out) {
+    if (receivers.pairs) return append_pairs_csv(receivers, loss_db, out);
     out += "depth_m\\range_m";
     for (const double range_m : receivers.range_m) {
         out += ',';
@@ -125,6 +140,10 @@ public:
             reals(field::answer::depth_m, task.environment.receivers.depth_m);
             reals(field::answer::range_m, task.environment.receivers.range_m);
             losses(result.field.loss_db);
+            if (task.environment.receivers.pairs) {
+                values_[field::answer::pairs].i = 1;
+                values_[field::answer::pairs].present = true;
+            }
             if (task.levels) levels(task, result.field.loss_db);
         }
         for (const pg::ReceiverArrivals& receiver : result.arrivals) paths(receiver);
@@ -171,8 +190,7 @@ private:
         const pg::SonarLevels levels = task.levels->in(e);
         std::vector<double> snr_db(loss_db.size());
         for (std::size_t k = 0; k < snr_db.size(); ++k)
-            snr_db[k] = signal_to_noise_db(levels, double{loss_db[k]},
-                                           e.receivers.depth_m[k / e.receivers.range_m.size()]);
+            snr_db[k] = signal_to_noise_db(levels, double{loss_db[k]}, e.receivers.depth_at_m(k));
         list(field::answer::snr_db, snr_db, hundredths);
         if (const auto& least = task.levels->threshold_db)
             list(field::answer::signal_excess_db, snr_db,

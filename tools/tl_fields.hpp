@@ -45,7 +45,7 @@ namespace span {
 enum : std::uint32_t { start_m, stop_m, count };
 }
 namespace receivers {
-enum : std::uint32_t { depth_m, range_m, depths, ranges };
+enum : std::uint32_t { depth_m, range_m, depths, ranges, pairs };
 }
 namespace fan {
 enum : std::uint32_t { min_deg, max_deg, beams };
@@ -144,6 +144,7 @@ enum : std::uint32_t {
     signal_excess_db,
     noise_in_band_db,
     critical_depth_m,
+    pairs,
 };
 }
 

@@ -5,6 +5,7 @@
 #include "gnuplot.hpp"
 #include "tl_answer.hpp"
 
+#include "seautils/core/error.hpp"
 #include "seautils/propagation/rays.hpp"
 
 #include <fmt/format.h>
@@ -24,6 +25,8 @@ public:
     /// @throws as Gnuplot::draw()
     static void draw(const Gnuplot::Target& target, const TlResult& result, std::size_t rays) {
         const bool has_loss = !result.field.loss_db.empty();
+        if (has_loss && result.task->environment.receivers.pairs)
+            throw Error(ExitCode::data, "a picture of losses needs a grid of receivers, not pairs");
         Gnuplot::draw(target, "set terminal " + target.terminal + "\nset encoding utf8\n" +
                                   (has_loss ? losses(result, rays) : arrivals(result)));
     }

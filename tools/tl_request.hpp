@@ -67,7 +67,7 @@ public:
         for (const auto& [part, name] : needed)
             if ((said_ & part) == 0) throw DataError(std::string(name) + " is not given");
         const pg::Receivers& r = task_.environment.receivers;
-        const std::size_t cells = r.depth_m.size() * r.range_m.size();
+        const std::size_t cells = r.count();
         if (cells > most_cells)
             throw DataError(
                 fmt::format("receivers of {} depths and {} ranges are {} cells, which is "
@@ -247,6 +247,7 @@ private:
             namespace f = field::receivers;
             if (axis(*r, f::depth_m, f::depths, "depth", e.receivers.depth_m)) said_ |= depths;
             if (axis(*r, f::range_m, f::ranges, "range", e.receivers.range_m)) said_ |= ranges;
+            e.receivers.pairs = r->flag(f::pairs).value_or(e.receivers.pairs);
             task_.arrivals_at.reset();
         }
         if (const auto f = request.part(field::request::fan, "fan")) {

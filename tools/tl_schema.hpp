@@ -55,8 +55,9 @@ private:
     const schema::Layout& add_receivers() {
         const auto& span =
             add_message("seautils.Span", {real("start_m"), real("stop_m"), whole("count")});
-        return add_message("seautils.TlReceivers", {reals("depth_m"), reals("range_m"),
-                                                    part("depths", span), part("ranges", span)});
+        return add_message("seautils.TlReceivers",
+                           {reals("depth_m"), reals("range_m"), part("depths", span),
+                            part("ranges", span), flag("pairs")});
     }
 
     void add_request() {
@@ -139,7 +140,8 @@ private:
                                                      {"snr_db", Kind::float32, true},
                                                      {"signal_excess_db", Kind::float32, true},
                                                      real("noise_in_band_db"),
-                                                     real("critical_depth_m")});
+                                                     real("critical_depth_m"),
+                                                     flag("pairs")});
     }
 
     SspSchema profile_;

@@ -22,6 +22,7 @@ inline toolbox::ShdFile shd_of(const std::vector<TlResult>& results) {
     file.frequency_hz = e.frequency_hz;
     file.receiver_depth_m.assign(e.receivers.depth_m.begin(), e.receivers.depth_m.end());
     file.range_m = e.receivers.range_m;
+    file.irregular = e.receivers.pairs;
     for (const TlResult& result : results) {
         file.source_depth_m.push_back(static_cast<float>(result.task->environment.source.depth_m));
         const bool has_phase = !result.field.pressure.empty();
@@ -46,6 +47,7 @@ inline toolbox::ArrFile arr_of(const std::vector<TlResult>& results) {
     file.frequency_hz = task.environment.frequency_hz;
     file.receiver_depth_m = at.depth_m;
     file.range_m = at.range_m;
+    file.irregular = at.pairs;
     for (const TlResult& result : results) {
         file.source_depth_m.push_back(result.task->environment.source.depth_m);
         file.receivers.insert(file.receivers.end(), result.arrivals.begin(), result.arrivals.end());

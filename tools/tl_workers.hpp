@@ -5,6 +5,7 @@
 #include "tl_answer.hpp"
 
 #include "seautils/propagation/engine.hpp"
+#include "seautils/propagation/pairs.hpp"
 #include "seautils/propagation/rays.hpp"
 #include "seautils/propagation/smooth.hpp"
 #include "seautils/toolbox/external.hpp"
@@ -66,13 +67,15 @@ private:
 
     void run(const TlTask& task, TlResult& result) {
         if (task.loss) {
+            if (task.smooth && task.environment.receivers.pairs)
+                throw DataError("smooth is for a grid of receivers, not for pairs");
             result.field = field_of(task);
             if (task.smooth) pg::smooth(result.field, smooth_depths, smooth_ranges);
         }
         if (!task.arrivals) return;
         pg::Environment there = task.environment;
         if (task.arrivals_at) there.receivers = *task.arrivals_at;
-        const std::size_t n = there.receivers.depth_m.size() * there.receivers.range_m.size();
+        const std::size_t n = there.receivers.count();
         if (n > most_receivers)
             throw DataError(
                 fmt::format("arrivals at {} receivers are wanted, which is outside 1 to "
@@ -80,10 +83,17 @@ private:
                             n, most_receivers));
         pg::check(there);
         if (task.program.empty())
-            result.arrivals = ray_arrivals(there, task.options);
+            result.arrivals = our_arrivals(there, task.options);
         else
             result.arrivals =
                 external_arrivals(toolbox::parse_program(task.program), there, task.options, run_);
+    }
+
+    static std::vector<pg::ReceiverArrivals> our_arrivals(const pg::Environment& there,
+                                                          const pg::FieldOptions& options) {
+        if (!there.receivers.pairs) return ray_arrivals(there, options);
+        return arrivals_at_pairs(
+            there, [&](const pg::Environment& grid) { return ray_arrivals(grid, options); });
     }
 
     pg::Field field_of(const TlTask& task) {

@@ -68,6 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (again) fuzz::require(read(*again).has_value(), "what is written is read");
     }
     fuzz::accepted([&] { tb::read_arr(text); });
+    fuzz::accepted([&] { tb::read_arr(text, true); });
     fuzz::accepted([&] { tb::read_shd(text); });
     return 0;
 }

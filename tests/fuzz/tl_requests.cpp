@@ -23,10 +23,8 @@ void read(std::string_view bytes, bool binary, const st::TlSchema& schema, st::T
             json.read(bytes, schema.request(), values);
         next.merge(values);
         const st::TlTask task = next.task();
-        fuzz::require(
-            task.environment.receivers.depth_m.size() * task.environment.receivers.range_m.size() <=
-                st::TlKnown::most_cells,
-            "receivers are bounded");
+        fuzz::require(task.environment.receivers.count() <= st::TlKnown::most_cells,
+                      "receivers are bounded");
         seautils::propagation::check(task.environment);
     });
     if (good) known = std::move(next);

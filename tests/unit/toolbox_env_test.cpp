@@ -4,6 +4,7 @@
 #include "seautils/propagation/case_file.hpp"
 #include "seautils/toolbox/attenuation.hpp"
 #include "seautils/toolbox/env_file.hpp"
+#include "seautils/toolbox/env_writer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,8 +41,6 @@ EnvFile read_path(const fs::path& path) {
         return fs::exists(other) ? std::optional(content_of(other)) : std::nullopt;
     });
 }
-
-using Files = std::map<std::string, std::string>;
 
 EnvFile read(const std::string& text, const Files& files = {}) {
     return read_env(text, [&](const std::string& extension) {
@@ -289,6 +288,16 @@ TEST(EnvFile, OutsideOfTheWaterIsClampedAndSaid) {
     ASSERT_EQ(file.remarks.size(), 1U);
 }
 
+TEST(EnvFile, ReceiversMayBePairs) {
+    const EnvFile file =
+        read(env({{"8", "1\n30 /\n3\n50 500 50 /\n3\n1.0 0.1 1.0 /"}, {"9", "'CB  I'"}}));
+    const pg::Receivers wanted{{50, 100, 50}, {1000, 100, 1000}, true};  // as they come, clamped
+    EXPECT_EQ(file.environment.receivers, wanted);
+    const auto again = write_bellhop(file.environment, file.options, false);
+    EXPECT_EQ(read(again.at("env"), again).environment.receivers, wanted);
+    EXPECT_FALSE(read(env({{"9", "'CB  R'"}})).environment.receivers.pairs);
+}
+
 TEST(EnvFile, UnitsOfAttenuation) {
     // 0.1 neper a metre over a wavelength of 1.5 m is 0.15 * 20 lg e dB; a quality factor of 50 is pi / 50 nepers.
     EXPECT_NEAR(attenuation_db_per_wavelength('N', 0.1, 1500, 1000), 1.302883, 1e-6);
@@ -326,7 +335,8 @@ TEST(EnvFile, RefusalsAreLocated) {
          "line 13: receiver depth: there are 3 of 5 values"},
         {{{"8", "1\n30 /\n3\n1,,3 /\n4\n0.1 1 /"}}, "line 13: receiver depth: value 2 is left out"},
         {{{"9", "'RB'"}}, "line 16: RUNTYPE 'RB     ': rays are no result"},
-        {{{"9", "'IB  I'"}}, "line 16: RUNTYPE 'IB  I  ': irregular receivers are not read"},
+        {{{"9", "'IB  I'"}},
+         "line 16: RUNTYPE 'IB  I  ': NRZ 3 is not NRR 4, so that receivers are no pairs"},
         {{{"a", ""}}, "line 18: the file ends where NBEAMS is expected"},
         {{{"1", "'open"}}, "line 1: the quotes of the title are not closed"},
         {{{"2", "0*5"}}, "line 2: frequency cannot be there '0' times"},

@@ -116,6 +116,30 @@ TEST(ShdFile, ReadsWhatItWrites) {
         }
 }
 
+TEST(ShdFile, PairsAreOneRecordOfEachSource) {
+    ShdFile f = field(0);
+    f.irregular = true;
+    f.receiver_depth_m = {30, 10, 30, 5};
+    f.range_m = {20, 5, 20, 0};
+    for (int k = 0; k < 8; ++k) f.pressure.emplace_back(static_cast<float>(k), 0.5F);
+    for (const ShdLayout layout : {ShdLayout::of_2022, ShdLayout::of_2023}) {
+        const std::string file = write_shd(f, layout);
+        ASSERT_EQ(file.size(), 12U * 4 * 41);
+        EXPECT_EQ(file.substr(4 * 41, 10), "irregular ");
+        EXPECT_EQ(at<std::int32_t>(file, 2 * 4 * 41 + 20), 4);
+        EXPECT_EQ(at<std::int32_t>(file, 2 * 4 * 41 + 24), 4);
+        EXPECT_EQ(at<float>(file, 11 * 4 * 41 + 8), 5.0F);  // source 1, pair 1
+        const ShdFile g = read_shd(file);
+        EXPECT_TRUE(g.irregular);
+        EXPECT_EQ(g.range_m, f.range_m);
+        EXPECT_EQ(g.receiver_depth_m, f.receiver_depth_m);
+        EXPECT_EQ(g.pressure, f.pressure);
+    }
+    f.receiver_depth_m.pop_back();
+    EXPECT_EQ(refusal(write_shd(f, ShdLayout::of_2023)),
+              "it is irregular, with 3 depths and 4 ranges");
+}
+
 TEST(ShdFile, LastRecordMayBeShort) {
     const ShdFile f = field(4);
     std::string file = write_shd(f, ShdLayout::of_2023);
@@ -181,6 +205,21 @@ TEST(ArrFile, ReadsWhatItWrites) {
     EXPECT_NEAR(a.absorption_db, b.absorption_db, 1e-6);
     EXPECT_EQ(a.bottom_bounces, b.bottom_bounces);
     EXPECT_EQ(g.receivers[1].depth_m, 20);
+}
+
+TEST(ArrFile, PairsAreReadAsTheyAreWritten) {
+    ArrFile f = two_receivers();
+    f.irregular = true;
+    f.range_m = {500.5, 400};
+    f.receivers[1].range_m = 400;
+    const ArrFile g = read_arr(write_arr(f, ArrForm::text), true);
+    ASSERT_EQ(g.receivers.size(), 2U);
+    EXPECT_EQ(g.receivers[0].arrivals.size(), 2U);
+    EXPECT_EQ(g.receivers[1].depth_m, 20);
+    EXPECT_EQ(g.receivers[1].range_m, 400);
+    EXPECT_TRUE(g.receivers[1].arrivals.empty());
+    f.range_m.push_back(300);
+    EXPECT_THROW(read_arr(write_arr(f, ArrForm::text), true), DataError);
 }
 
 TEST(ArrFile, BinaryIsRecordsOfFortran) {

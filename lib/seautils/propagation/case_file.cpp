@@ -97,12 +97,9 @@ private:
     Receivers receivers(const Value& value, bool is_grid) {
         Object object(value, result_.remarks);
         Receivers r{axis(object.need("depth_m")), axis(object.need("range_m"))};
-        if (is_grid) {
-            if (const auto layout = object.get("layout"))
-                layout->one_of<bool>({{"rectilinear", true}});
-        } else {
-            object.known({"beams", "engine"});
-        }
+        if (const auto layout = object.get("layout"))
+            r.pairs = layout->one_of<bool>({{"rectilinear", false}, {"irregular", true}});
+        if (!is_grid) object.known({"beams", "engine"});
         object.end();
         return r;
     }

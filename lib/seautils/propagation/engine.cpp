@@ -2,6 +2,7 @@
 
 #include "seautils/propagation/column.hpp"
 #include "seautils/propagation/modes.hpp"
+#include "seautils/propagation/pairs.hpp"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,13 @@ double depth_in_wavelengths(const Environment& e) {
     return e.frequency_hz * travel_s;
 }
 
+/// Of pairs: modes are searched for anew in each block, and wavenumbers take seconds.
+PairCost pair_cost(Engine engine) {
+    if (engine == Engine::modes) return {250'000, 250};
+    if (engine == Engine::wavenumber) return {40'000, 50};
+    return {};
+}
+
 }  // namespace
 
 std::string_view name(Engine engine) {
@@ -56,18 +64,24 @@ Field compute_field(const Environment& environment, Engine engine, const FieldOp
     return FieldComputer(0).compute(environment, engine, options);
 }
 
+Field FieldComputer::on_grid(const Environment& environment, Engine engine,
+                             const FieldOptions& options) {
+    if (engine == Engine::modes) return mode_field(environment, options);
+    if (engine == Engine::wavenumber) return wavenumber_field(environment, options);
+    return rays_.field(environment, options);
+}
+
 Field FieldComputer::compute(const Environment& environment, Engine engine,
                              const FieldOptions& options) {
     check(environment);
     Choice choice{engine, ""};
     if (engine == Engine::automatic) choice = choose_engine(environment, options);
-    Field field;
-    if (choice.engine == Engine::modes)
-        field = mode_field(environment, options);
-    else if (choice.engine == Engine::wavenumber)
-        field = wavenumber_field(environment, options);
-    else
-        field = rays_.field(environment, options);
+    Field field = environment.receivers.pairs
+                      ? field_at_pairs(environment, pair_cost(choice.engine),
+                                       [&](const Environment& grid) {
+                                           return on_grid(grid, choice.engine, options);
+                                       })
+                      : on_grid(environment, choice.engine, options);
     field.basis.engine = choice.engine;
     field.basis.why = choice.why;
     return field;

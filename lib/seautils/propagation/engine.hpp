@@ -21,7 +21,8 @@ struct Choice {
 inline constexpr double most_wavelengths_of_modes = 30;
 Choice choose_engine(const Environment& environment, const FieldOptions& options);
 
-/// Checks, chooses an engine where it is `automatic`, and computes. A basis says which, and why.
+/// Checks, chooses an engine where it is `automatic`, and computes: receivers that are pairs too, which the engines
+/// themselves do not know. A basis says which, and why.
 /// @throws DataError  as check() and the engines do
 Field compute_field(const Environment& environment, Engine engine, const FieldOptions& options);
 
@@ -38,6 +39,8 @@ public:
     Field compute(const Environment& environment, Engine engine, const FieldOptions& options);
 
 private:
+    Field on_grid(const Environment& environment, Engine engine, const FieldOptions& options);
+
     RayFields rays_;
 };
 

@@ -1,6 +1,7 @@
 #include "seautils/propagation/environment.hpp"
 
 #include "seautils/core/error.hpp"
+#include "seautils/core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -165,9 +166,22 @@ void check_source(const Environment& e) {
     counted("source.pattern", source.pattern.size(), 0);
 }
 
+void check_pairs(const Receivers& r) {
+    if (r.depth_m.size() != r.range_m.size())
+        refuse(fmt::format("receivers.depth_m has {}, receivers.range_m {}, which are no pairs",
+                           seautils::counted(r.depth_m.size(), "value"), r.range_m.size()));
+    if (r.range_m.size() > Bounds::most_pairs)
+        refuse(fmt::format("receivers of {} pairs are outside 1 to {}", r.range_m.size(),
+                           Bounds::most_pairs));
+    each_within("receivers.depth_m", "", r.depth_m.size(), depths, at(r.depth_m));
+    each_within("receivers.range_m", "", r.range_m.size(), {0, Bounds::most_range_m, " m"},
+                at(r.range_m));
+}
+
 void check_receivers(const Receivers& r) {
     counted("receivers.depth_m", r.depth_m.size(), 1);
     counted("receivers.range_m", r.range_m.size(), 1);
+    if (r.pairs) return check_pairs(r);
     if (r.depth_m.size() > Bounds::most_receivers / r.range_m.size())
         refuse(fmt::format("{} depths at {} ranges are more than {} receivers", r.depth_m.size(),
                            r.range_m.size(), Bounds::most_receivers));

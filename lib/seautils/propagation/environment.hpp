@@ -140,10 +140,16 @@ struct Source {
     bool operator==(const Source&) const = default;
 };
 
-/// A grid: each depth at each range.
+/// A grid: each depth at each range. Or pairs, as along a track: depth_m[k] at range_m[k], in any order.
 struct Receivers {
     std::vector<double> depth_m;
     std::vector<double> range_m;
+    bool pairs = false;
+
+    std::size_t count() const { return pairs ? range_m.size() : depth_m.size() * range_m.size(); }
+    /// Of a value in the order of a Field. @pre there are ranges
+    double depth_at_m(std::size_t k) const { return depth_m[pairs ? k : k / range_m.size()]; }
+    double range_at_m(std::size_t k) const { return range_m[pairs ? k : k % range_m.size()]; }
 
     bool operator==(const Receivers&) const = default;
 };
@@ -181,6 +187,7 @@ struct Bounds {
     static constexpr std::size_t most_receivers = 20'000'000;  ///< depths times ranges
     static constexpr std::size_t most_layers = 1000;
     static constexpr double least_thickness_m = 1e-4, most_thickness_m = 20000;  ///< of a layer
+    static constexpr std::size_t most_pairs = 100'000;                           ///< of receivers
     static constexpr std::uint32_t most_beams = 1'000'000;
 };
 

@@ -43,7 +43,7 @@ struct Basis {
     std::vector<std::string> remarks;  ///< what was assumed, extended or clamped, for people
 };
 
-/// Transmission loss on the grid of receivers.
+/// Transmission loss on the grid of receivers; of pairs 1 depth, and a range for each.
 struct Field {
     std::size_t depths = 0, ranges = 0;
     /// [depth][range], dB re 1 m. NaN: no value (below the seabed, above the surface, range 0); infinite: no energy.

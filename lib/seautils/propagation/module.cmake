@@ -18,6 +18,7 @@ seautils_module(NAME propagation
     mode_search.cpp
     modes.cpp
     noise.cpp
+    pairs.cpp
     ray_arrivals.cpp
     ray_beam.cpp
     ray_energy.cpp

@@ -93,7 +93,7 @@ std::string write(const ArrFile& file, Form form) {
     form.axis(file.source_depth_m);
     form.axis(file.receiver_depth_m);
     form.axis(file.range_m);
-    const std::size_t n = file.receiver_depth_m.size() * file.range_m.size();
+    const std::size_t n = (file.irregular ? 1 : file.receiver_depth_m.size()) * file.range_m.size();
     for (std::size_t first = 0; first < file.receivers.size(); first += n) {
         const auto block =
             std::span(file.receivers).subspan(first, std::min(n, file.receivers.size() - first));
@@ -117,7 +117,7 @@ class ArrReader {
 public:
     explicit ArrReader(std::string_view text) : file_(text) {}
 
-    ArrFile read() {
+    ArrFile read(bool irregular) {
         ArrFile f;
         std::string tag;
         file_.read([&](ListDirected::Read& r) { r.text(tag, "the tag"); });
@@ -126,11 +126,19 @@ public:
         f.source_depth_m = axis("source depth");
         f.receiver_depth_m = axis("receiver depth");
         f.range_m = axis("range");
+        f.irregular = irregular;
+        if (irregular && f.receiver_depth_m.size() != f.range_m.size())
+            throw DataError(fmt::format("{} receiver depths and {} ranges are no pairs",
+                                        f.receiver_depth_m.size(), f.range_m.size()));
         for (std::size_t source = 0; source < f.source_depth_m.size(); ++source) {
             count("the largest number of arrivals");
-            for (const double depth_m : f.receiver_depth_m)
+            for (std::size_t k = 0; irregular && k < f.range_m.size(); ++k)
+                f.receivers.push_back(
+                    {f.receiver_depth_m[k], f.range_m[k], arrivals(f.frequency_hz)});
+            for (std::size_t k = 0; !irregular && k < f.receiver_depth_m.size(); ++k)
                 for (const double range_m : f.range_m)
-                    f.receivers.push_back({depth_m, range_m, arrivals(f.frequency_hz)});
+                    f.receivers.push_back(
+                        {f.receiver_depth_m[k], range_m, arrivals(f.frequency_hz)});
         }
         return f;
     }
@@ -184,7 +192,7 @@ private:
 
 }  // namespace
 
-ArrFile read_arr(std::string_view text) { return ArrReader(text).read(); }
+ArrFile read_arr(std::string_view text, bool irregular) { return ArrReader(text).read(irregular); }
 
 std::string write_arr(const ArrFile& file, ArrForm form) {
     return form == ArrForm::text ? write(file, TextForm()) : write(file, BinaryForm());

@@ -15,7 +15,8 @@ namespace seautils::toolbox {
 struct ArrFile {
     double frequency_hz = 0;
     std::vector<double> source_depth_m, receiver_depth_m, range_m;
-    /// [source][depth][range]
+    bool irregular = false;  ///< receivers are pairs of a depth and a range, as many of both
+    /// [source][depth][range]; of pairs [source][range]
     std::vector<propagation::ReceiverArrivals> receivers;
 };
 
@@ -28,8 +29,8 @@ enum class ArrForm : std::uint8_t {
 /// Layout: section 11 of the project's acoustics specification.
 std::string write_arr(const ArrFile& file, ArrForm form);
 
-/// Reads the text form. @throws DataError  says the line, and what is wrong there
-ArrFile read_arr(std::string_view text);
+/// Reads the text form, which does not say whether receivers are pairs. @throws DataError  says the line, and what is wrong there
+ArrFile read_arr(std::string_view text, bool irregular = false);
 
 }  // namespace seautils::toolbox
 

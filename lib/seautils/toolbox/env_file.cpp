@@ -373,9 +373,12 @@ private:
     void bellhop() {
         pg::Environment& e = result_.environment;
         result_.source_depth_m = sorted(file_.vector("source depth", most_values));
-        e.receivers.depth_m = sorted(file_.vector("receiver depth", most_values));
-        e.receivers.range_m = sorted(file_.vector_km("receiver range", most_values));
-        run_type();
+        pg::Receivers at{file_.vector("receiver depth", most_values),
+                         file_.vector_km("receiver range", most_values)};
+        at.pairs = run_type(at);
+        e.receivers =
+            at.pairs ? std::move(at)
+                     : pg::Receivers{sorted(std::move(at.depth_m)), sorted(std::move(at.range_m))};
         std::int64_t beams = 0;
         file_.read([&](Read& r) { r.whole(beams, "NBEAMS", 0, 100'000'000); });
         file_.read([&](Read& r) {
@@ -388,7 +391,8 @@ private:
         if (e.fan.most_deg < e.fan.least_deg) std::swap(e.fan.least_deg, e.fan.most_deg);
     }
 
-    void run_type() {
+    /// @return receivers are pairs
+    bool run_type(const pg::Receivers& receivers) {
         const std::size_t line = file_.line();
         const std::string type = letters("RUNTYPE", 7);
         const auto refuse = [&](std::string_view what) {
@@ -425,8 +429,12 @@ private:
             with("sbp", "RUNTYPE",
                  [&](const std::string& text) { source.pattern = read_sbp_file(text); });
         source.line = type[3] == 'X';
-        if (type[4] == 'I') refuse("irregular receivers are not read");
         result_.engine = pg::Engine::rays;
+        if (type[4] != 'I') return false;
+        if (receivers.depth_m.size() != receivers.range_m.size())
+            refuse(fmt::format("NRZ {} is not NRR {}, so that receivers are no pairs",
+                               receivers.depth_m.size(), receivers.range_m.size()));
+        return true;
     }
 
     void kraken() {
@@ -467,6 +475,7 @@ private:
                 clamped = clamped || z < top || z > bottom;
                 z = std::clamp(z, std::min(top, bottom), bottom);
             }
+            if (depths == &e.receivers.depth_m && e.receivers.pairs) continue;
             depths->erase(std::unique(depths->begin(), depths->end()), depths->end());
         }
         if (clamped)

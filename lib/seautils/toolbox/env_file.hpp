@@ -26,7 +26,7 @@ struct EnvFile {
 using Companion = std::function<std::optional<std::string>(const std::string& extension)>;
 
 /// @throws DataError  says the line (of which file, where it is another), the name of the value, and what is wrong with it;
-///                    or names what this does not read: elastic layers, biological absorption, irregular receivers, and
+///                    or names what this does not read: elastic layers, biological absorption, and
 ///                    rays as a result
 /// Media below the first are layers of the bottom.
 /// Format: section 11 of the project's acoustics specification; the Toolbox's user manual.

@@ -31,17 +31,21 @@ public:
         vector({e_.source.depth_m}, 1);
         vector(e_.receivers.depth_m, 1);
         vector(e_.receivers.range_m, 1e-3);
-        line("'{}{}{}{}R'", arrivals ? 'A' : letter_of_sum(),
+        line("'{}{}{}{}{}'", arrivals ? 'A' : letter_of_sum(),
              options_.beam == pg::Beam::hat || arrivals ? 'G' : 'B',
-             e_.source.pattern.empty() ? 'O' : '*', e_.source.line ? 'X' : 'R');
+             e_.source.pattern.empty() ? 'O' : '*', e_.source.line ? 'X' : 'R',
+             e_.receivers.pairs ? 'I' : 'R');
         line("{}", e_.fan.beams);
         line("{} {} /", e_.fan.least_deg, e_.fan.most_deg);
-        line("0 {} {}", 1.01 * depth_m_ + 1, 1.01e-3 * e_.receivers.range_m.back());
+        const std::vector<double>& range_m = e_.receivers.range_m;  // pairs are in any order
+        line("0 {} {}", 1.01 * depth_m_ + 1,
+             1.01e-3 * *std::max_element(range_m.begin(), range_m.end()));
         pattern();
         return std::move(files_);
     }
 
     Files kraken(PhaseSpeeds speeds, double reach_km) {
+        if (e_.receivers.pairs) throw DataError("modes know no receivers that are pairs");
         if (!is_range_independent(e_))
             throw DataError("modes need a sea that does not depend on range");
         if (!e_.source.pattern.empty()) throw DataError("modes know no beam pattern");

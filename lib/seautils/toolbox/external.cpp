@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace seautils::toolbox {
@@ -121,12 +122,11 @@ private:
 pg::Field field_of(const pg::Environment& e, const pg::FieldOptions& options,
                    const std::vector<std::complex<float>>& pressure) {
     pg::Field field;
-    field.depths = e.receivers.depth_m.size();
+    field.depths = e.receivers.pairs ? 1 : e.receivers.depth_m.size();
     field.ranges = e.receivers.range_m.size();
     field.loss_db.resize(pressure.size());
     for (std::size_t k = 0; k < pressure.size(); ++k) {
-        const double range_m = e.receivers.range_m[k % field.ranges],
-                     depth_m = e.receivers.depth_m[k / field.ranges];
+        const double range_m = e.receivers.range_at_m(k), depth_m = e.receivers.depth_at_m(k);
         const bool is_water = range_m != 0 && depth_m <= bottom_depth_m(e, range_m) &&
                               depth_m >= surface_depth_m(e, range_m);
         const double size = std::abs(std::complex<double>(pressure[k]));
@@ -247,6 +247,56 @@ pg::Field oast_field(Run& one, const pg::Environment& e, const pg::FieldOptions&
     return field;
 }
 
+/// Pairs in the order in which BELLHOP wants them, its ranges growing; else the receivers as they are.
+struct Ordered {
+    explicit Ordered(const pg::Environment& given) : environment(given) {
+        if (!given.receivers.pairs) return;
+        const std::vector<double>& range_m = given.receivers.range_m;
+        order.resize(range_m.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::sort(order.begin(), order.end(),
+                  [&](std::size_t a, std::size_t b) { return range_m[a] < range_m[b]; });
+        pg::Receivers& r = environment.receivers;
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            r.range_m[k] = range_m[order[k]];
+            r.depth_m[k] = given.receivers.depth_m[order[k]];
+            if (k > 0 && r.range_m[k] == r.range_m[k - 1])
+                throw DataError(
+                    fmt::format("bellhop takes pairs of receivers at ranges that differ: {} m is "
+                                "there twice",
+                                r.range_m[k]));
+        }
+    }
+    /// Values as they were asked for.
+    template <class T>
+    void restore(std::vector<T>& values) const {
+        const std::vector<T> sorted = values;
+        for (std::size_t k = 0; k < order.size() && k < values.size(); ++k)
+            values[order[k]] = sorted[k];
+    }
+
+    pg::Environment environment;
+    std::vector<std::size_t> order;
+};
+
+pg::Field bellhop_field(Program program, const pg::Environment& given,
+                        const pg::FieldOptions& options, const ExternalRun& run) {
+    const std::string name = name_of(program);
+    const Ordered ordered(given);
+    const pg::Environment& e = ordered.environment;
+    Run one(run);
+    one.feed(write_bellhop(e, options, false));
+    const ShdFile shd = read_result(name, one.result_of(name, options_of(program, run), "shd"));
+    check_size(name, e, shd.receiver_depth_m.size(), shd.range_m.size());
+    if (shd.irregular != e.receivers.pairs)
+        throw DataError(name + (shd.irregular ? ": its result is of pairs in place of a grid"
+                                              : ": its result is of a grid in place of pairs"));
+    pg::Field field = field_of(e, options, shd.pressure);
+    ordered.restore(field.loss_db);
+    if (!field.pressure.empty()) ordered.restore(field.pressure);
+    return field;
+}
+
 }  // namespace
 
 Program parse_program(std::string_view name) {
@@ -259,14 +309,11 @@ Program parse_program(std::string_view name) {
 pg::Field external_field(Program program, const pg::Environment& e, const pg::FieldOptions& options,
                          const ExternalRun& run) {
     const std::string name = name_of(program);
+    if (is_bellhop(program)) return bellhop_field(program, e, options, run);
+    if (e.receivers.pairs)
+        throw DataError("engine " + quote(name) + " takes no receivers that are pairs");
     Run one(run);
     if (program == Program::oases) return oast_field(one, e, options);
-    if (is_bellhop(program)) {
-        one.feed(write_bellhop(e, options, false));
-        const ShdFile shd = read_result(name, one.result_of(name, options_of(program, run), "shd"));
-        check_size(name, e, shd.receiver_depth_m.size(), shd.range_m.size());
-        return field_of(e, options, shd.pressure);
-    }
     const double reach_km = e.receivers.range_m.back() / 1000;
     const bool is_scooter = program == Program::scooter;
     one.feed(
@@ -284,17 +331,19 @@ pg::Field external_field(Program program, const pg::Environment& e, const pg::Fi
     return field_of(e, options, shd.pressure);
 }
 
-std::vector<pg::ReceiverArrivals> external_arrivals(Program program, const pg::Environment& e,
+std::vector<pg::ReceiverArrivals> external_arrivals(Program program, const pg::Environment& given,
                                                     const pg::FieldOptions& options,
                                                     const ExternalRun& run) {
     const std::string name = name_of(program);
     if (!is_bellhop(program)) throw DataError("engine " + quote(name) + " knows no arrivals");
+    const Ordered ordered(given);
+    const pg::Environment& e = ordered.environment;
     Run one(run);
     one.feed(write_bellhop(e, options, true));
     const std::string text = one.result_of(name, options_of(program, run), "arr");
     ArrFile arr;
     try {
-        arr = read_arr(text);
+        arr = read_arr(text, e.receivers.pairs);
     } catch (const DataError& fault) {
         throw DataError(name + ": its result is not as it should be: " + fault.what());
     }
@@ -302,6 +351,7 @@ std::vector<pg::ReceiverArrivals> external_arrivals(Program program, const pg::E
     for (pg::ReceiverArrivals& receiver : arr.receivers)
         std::sort(receiver.arrivals.begin(), receiver.arrivals.end(),
                   [](const auto& a, const auto& b) { return a.delay_s < b.delay_s; });
+    ordered.restore(arr.receivers);
     return std::move(arr.receivers);
 }
 

@@ -67,7 +67,10 @@ public:
         file.frequency_hz = little_endian<double>(bytes_, 3 * record_);
         file.source_depth_m = floats(7, sources);
         file.receiver_depth_m = floats(8, depths);
-        file.range_m = ranges_of(ranges);
+        file.irregular = bytes_.substr(record_, kind_bytes).starts_with("irregular");
+        if (file.irregular && depths != ranges)
+            refuse(fmt::format("is irregular, with {} depths and {} ranges", depths, ranges));
+        file.range_m = file.irregular ? ranges_of_pairs(ranges) : ranges_of(ranges);
         pressure(file);
         return file;
     }
@@ -110,6 +113,21 @@ private:
         return all;
     }
 
+    /// In no order: binary64 where the second half of their bytes holds something.
+    std::vector<double> ranges_of_pairs(std::size_t n) const {
+        if (8 * n > record_)
+            refuse(fmt::format("has {} ranges in a record of {} bytes", n, record_));
+        const std::string_view half = bytes_.substr(9 * record_ + 4 * n, 4 * n);
+        const bool is_wide = half.find_first_not_of('\0') != half.npos;
+        std::vector<double> all(n);
+        for (std::size_t k = 0; k < n; ++k)
+            all[k] = is_wide ? little_endian<double>(bytes_, 9 * record_ + 8 * k)
+                             : double{little_endian<float>(bytes_, 9 * record_ + 4 * k)};
+        for (const double r : all)
+            if (!(std::fabs(r) < 1e10)) refuse("has ranges that are none");
+        return all;
+    }
+
     /// Whether numbers are such as ranges (or phase speeds) are, and grow or fall.
     static bool is_axis(const std::vector<double>& x) {
         const bool falls = x.size() > 1 && x[1] < x[0];
@@ -122,7 +140,8 @@ private:
     }
 
     void pressure(ShdFile& file) const {
-        const std::size_t rows = file.source_depth_m.size() * file.receiver_depth_m.size();
+        const std::size_t rows =
+            file.source_depth_m.size() * (file.irregular ? 1 : file.receiver_depth_m.size());
         const std::size_t n = file.range_m.size();
         need(head_records * record_, (rows - 1) * record_ + 8 * n);
         file.pressure.resize(rows * n);
@@ -144,7 +163,7 @@ std::string write_shd(const ShdFile& f, ShdLayout layout) {
     const std::size_t sources = f.source_depth_m.size(), depths = f.receiver_depth_m.size(),
                       ranges = f.range_m.size();
     const std::size_t words = std::max({std::size_t{41}, sources, depths, 2 * ranges});
-    if (words * 4 > most_bytes / (head_records + sources * depths))
+    if (words * 4 > most_bytes / (head_records + sources * (f.irregular ? 1 : depths)))
         throw DataError(
             fmt::format("a .shd file of {} sources, {} depths and {} ranges is too large", sources,
                         depths, ranges));
@@ -155,7 +174,7 @@ std::string write_shd(const ShdFile& f, ShdLayout layout) {
     whole(words);
     out.text(f.title, title_bytes);
     out.end();
-    out.text("rectilin", kind_bytes);
+    out.text(f.irregular ? "irregular" : "rectilin", kind_bytes);
     out.end();
     for (const std::size_t n :
          {std::size_t{1}, std::size_t{1}, std::size_t{1}, std::size_t{1}, sources, depths, ranges})

@@ -9,13 +9,16 @@
 
 namespace seautils::toolbox {
 
-/// A field as the Acoustics Toolbox keeps it in a .shd file; one frequency, one bearing, rectangular.
+/// A field as the Acoustics Toolbox keeps it in a .shd file; one frequency, one bearing.
 struct ShdFile {
     std::string title;
     double frequency_hz = 0;
     std::vector<float> source_depth_m, receiver_depth_m;
     std::vector<double> range_m;  ///< of a .grn file: phase speeds in m/s
-    /// [source][depth][range], re 1 at 1 m, in the Toolbox's time convention; 0: no energy, or no value. Of an incoherent
+    /// Receivers are pairs: receiver_depth_m[k] at range_m[k], as many of both, in any order; and one value for each. The
+    /// plot type is `irregular` then, and each source has one record (Nrcvrs_per_range is 1 in read_shd_bin.m).
+    bool irregular = false;
+    /// [source][depth][range], of pairs [source][range], re 1 at 1 m, in the Toolbox's time convention; 0: no energy, or no value. Of an incoherent
     /// sum its magnitude alone means something.
     std::vector<std::complex<float>> pressure;
 };
