@@ -253,7 +253,7 @@ at() {
 answers_before_the_end() {
     local n=$1 hold pid k
     shift
-    rm -f live.pipe
+    rm -f live.pipe got
     mkfifo live.pipe
     "$@" < live.pipe > got 2> said 3>&- &
     pid=$!
