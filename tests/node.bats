@@ -159,6 +159,15 @@ units_here() {
     assert_equal "$(cat ssp.log depth-plan.log)" ''
 }
 
+@test "systemd: the state that the README sends is answered by the best depth, held back by no limit" {
+    sed "s,/etc/seautils,$units/etc," "$units/etc/depth.conf" > depth.conf
+    sed -n '/^printf /,/> .*states\.fifo$/p' "$units/README.md" | sed "s,/run/seautils/depth/states.fifo,state," > send
+    assert [ -s send ]
+    bash send
+    run -0 depth-plan acomms -c depth.conf state
+    assert_equal "$(jq -c '[.rule, has("bound_by"), .window_from_m]' <<< "$output")" '["BEST",false,1000]'
+}
+
 # stage NODE STAGE: starts it as the units do, on FIFOs that somebody holds open
 stage() {
     local id=1
