@@ -38,7 +38,8 @@ struct Basis {
     std::string why;          ///< why this engine, where it was chosen
     std::uint64_t beams = 0;  ///< rays traced; 0 of other engines
     std::uint64_t modes = 0;
-    /// Numerical, 95 % of the cells; of rays, of the number of beams. 0: not estimated
+    /// Numerical, 95 % of the cells: of the number of beams, of meshes and samples; not of what is left
+    /// out, of which the remarks tell. 0: not estimated
     double estimated_error_db = 0;
     std::vector<std::string> remarks;  ///< what was assumed, extended or clamped, for people
 };

@@ -186,6 +186,7 @@ std::vector<std::string> options_of(Program program, const ExternalRun& run) {
 /// Spans of receivers' depths in the water that are equally spaced: all of them, or each by itself.
 std::vector<EvenDepths> even_depths(const std::vector<double>& depth_m) {
     const std::size_t n = depth_m.size();
+    if (n == 0) return {};
     const double step_m =
         n > 1 ? (depth_m.back() - depth_m.front()) / static_cast<double>(n - 1) : 0;
     bool even = true;
@@ -198,49 +199,52 @@ std::vector<EvenDepths> even_depths(const std::vector<double>& depth_m) {
     return each;
 }
 
-/// Losses of OAST: level by level of the receivers that lie in the water.
+/// Curves over range that OAST leaves for some depths.
+std::vector<PlotCurve> curves_of(Run& one, const pg::Environment& e, const EvenDepths& depths) {
+    one.feed({{"dat", write_oast(e, depths)}});
+    one.forget("plp");
+    const std::string values = one.result_of("oast", {}, "plt");
+    std::vector<PlotCurve> curves;
+    try {
+        curves = read_plots(one.file("plp"), values);
+    } catch (const DataError& fault) {
+        throw DataError(std::string("oast: its result is not as it should be: ") + fault.what());
+    }
+    if (curves.size() == depths.count) return curves;
+    throw DataError(fmt::format("oast: its result has {} plots over range in place of {}",
+                                curves.size(), depths.count));
+}
+
+/// Losses of a curve as pressures without a phase.
+void put_curve(const PlotCurve& curve, const std::vector<double>& range_m,
+               std::complex<float>* pressure) {
+    try {
+        for (const double r : range_m) {
+            const double loss_db = r > 0 ? value_at(curve, r / 1000) : 0;
+            *pressure++ = static_cast<float>(std::pow(10, -loss_db / 20));
+        }
+    } catch (const DataError& fault) {
+        throw DataError(std::string("oast: ") + fault.what());
+    }
+}
+
+/// Losses of OAST at the receivers that lie in the water.
 pg::Field oast_field(Run& one, const pg::Environment& e, const pg::FieldOptions& options) {
     if (options.sum != pg::Sum::coherent)
         throw DataError("oases adds coherently alone (--sum coherent)");
+    const pg::Receivers& r = e.receivers;
+    std::vector<std::size_t> row;
     std::vector<double> depth_m;
-    for (const double z : e.receivers.depth_m)
-        if (z >= surface_depth_m(e, 0) && z <= bottom_depth_m(e, 0)) depth_m.push_back(z);
-    std::vector<PlotCurve> curves;
-    for (const EvenDepths& span :
-         depth_m.empty() ? std::vector<EvenDepths>{} : even_depths(depth_m)) {
-        one.feed({{"dat", write_oast(e, span)}});
-        one.forget("plp");
-        const std::string values = one.result_of("oast", {}, "plt");
-        std::vector<PlotCurve> some;
-        try {
-            some = read_plots(one.file("plp"), values);
-        } catch (const DataError& fault) {
-            throw DataError(std::string("oast: its result is not as it should be: ") +
-                            fault.what());
-        }
-        if (some.size() != span.count)
-            throw DataError(fmt::format("oast: its result has {} plots over range in place of {}",
-                                        some.size(), span.count));
-        curves.insert(curves.end(), some.begin(), some.end());
+    for (std::size_t k = 0; k < r.depth_m.size(); ++k) {
+        if (r.depth_m[k] < surface_depth_m(e, 0) || r.depth_m[k] > bottom_depth_m(e, 0)) continue;
+        row.push_back(k);
+        depth_m.push_back(r.depth_m[k]);
     }
-    std::vector<std::complex<float>> pressure(e.receivers.depth_m.size() *
-                                              e.receivers.range_m.size());
-    std::size_t curve = 0;
-    const auto loss_db = [&](double range_m) {
-        try {
-            return value_at(curves[curve], range_m / 1000);
-        } catch (const DataError& fault) {
-            throw DataError(std::string("oast: ") + fault.what());
-        }
-    };
-    for (std::size_t z = 0, cell = 0; z < e.receivers.depth_m.size(); ++z) {
-        const bool is_wet = curve < depth_m.size() && e.receivers.depth_m[z] == depth_m[curve];
-        for (const double range_m : e.receivers.range_m) {
-            const double db = is_wet && range_m > 0 ? loss_db(range_m) : 0;
-            pressure[cell++] = static_cast<float>(std::pow(10, -db / 20));
-        }
-        curve += is_wet ? 1 : 0;
-    }
+    std::vector<std::complex<float>> pressure(r.depth_m.size() * r.range_m.size());
+    std::size_t k = 0;
+    for (const EvenDepths& span : even_depths(depth_m))
+        for (const PlotCurve& curve : curves_of(one, e, span))
+            put_curve(curve, r.range_m, &pressure[row[k++] * r.range_m.size()]);
     pg::Field field = field_of(e, options, pressure);
     field.basis.remarks.emplace_back(
         "losses are those of OAST between its ranges; pressures have no phase");
