@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -188,6 +189,46 @@ TEST(Rays, ImagesOfAnIsovelocityChannel) {
             EXPECT_NEAR(path.amplitude * path.delay_s * 1500, 1, 1e-6);
         }
     }
+}
+
+/// Paths between rays that have met a wall and rays that have not yet are found in the mirror: the
+/// same as between those of a fan so dense that hardly any two differ.
+TEST(Rays, ArrivalsAreThoseOfADenseFan) {
+    std::mt19937 random(11);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() % 10007U) / 10007;
+    };
+    std::size_t paths = 0, missed = 0;
+    for (int k = 0; k < 12; ++k) {
+        Environment sea = channel();
+        sea.water.profile = {{0, between(1490, 1520)},
+                             {between(20, 45), between(1490, 1520)},
+                             {between(50, 80), between(1490, 1520)},
+                             {100, between(1490, 1520)}};
+        sea.source.depth_m = between(1, 99);
+        sea.receivers = {{between(0, 40), between(50, 100)},
+                         {between(300, 900), between(1000, 3000)}};
+        const auto found = ray_arrivals(sea, {});
+        sea.fan.beams = 20000;
+        const auto dense = ray_arrivals(sea, {});
+        for (std::size_t r = 0; r < dense.size(); ++r) {
+            double most = 0;
+            for (const Arrival& path : dense[r].arrivals) most = std::max(most, path.amplitude);
+            for (const Arrival& path : dense[r].arrivals) {
+                if (path.amplitude < 0.03 * most) continue;
+                ++paths;
+                missed += std::none_of(found[r].arrivals.begin(), found[r].arrivals.end(),
+                                       [&](const Arrival& other) {
+                                           return std::abs(other.delay_s - path.delay_s) < 1e-8 &&
+                                                  other.surface_bounces == path.surface_bounces;
+                                       })
+                              ? 1
+                              : 0;
+            }
+        }
+    }
+    EXPECT_GT(paths, 500U);
+    EXPECT_LE(missed, paths / 200);
 }
 
 /// Of a plane wave-slope the reflected path is the straight one from the source's image in it.

@@ -35,6 +35,13 @@ constexpr double last_step_m = 0.02, last_step_rad = 1e-5;
 /// … the front spreads over it by no more than this part, and its direction is known to this.
 constexpr double last_growth = 0.01, last_doubt = 1e-6;
 
+/// As a mirror at a depth shows it.
+Probe mirrored(Probe ray, double mirror_m) {
+    ray.depth_m = 2 * mirror_m - ray.depth_m;
+    ray.sine = -ray.sine;
+    return ray;
+}
+
 /// Changes of a ray's sine with its launch.
 double turning(const Probe& a, const Probe& b) {
     return (b.sine - a.sine) / (b.launch_rad - a.launch_rad);
@@ -99,14 +106,33 @@ Probe EigenraySearch::probe(double launch_rad, double range_m) {
     return out;
 }
 
-/// The same bounces, q of one sign, and the step in depth that q lets expect.
-bool EigenraySearch::runs_one_way(const Probe& a, const Probe& b) const {
-    if (!a.same_history(b) || (a.state.q > 0) != (b.state.q > 0)) return false;
+/// q of one sign, and the step in depth that q lets expect, from `least` to `most` times.
+bool EigenraySearch::runs_one_way(const Probe& a, const Probe& b, double least, double most) const {
+    if ((a.state.q > 0) != (b.state.q > 0)) return false;
     const double expected_m =
         0.5 * (a.metres_per_rad(sea_.source_speed_mps) + b.metres_per_rad(sea_.source_speed_mps)) *
         (b.launch_rad - a.launch_rad);
     const double step_m = std::abs(b.depth_m - a.depth_m);
-    return step_m > 0.6 * expected_m && step_m < 1.6 * expected_m;
+    return step_m > least * expected_m && step_m < most * expected_m;
+}
+
+/// The depth of the level wall that one of them has met once more than the other, if that is all:
+/// the one comes from it, the other goes to it, and behind the mirror depth runs one way.
+std::optional<double> EigenraySearch::mirror_between(const Probe& a, const Probe& b) const {
+    if (!mirrors_ || !a.reached || !b.reached) return std::nullopt;
+    const auto more = [](std::uint32_t x, std::uint32_t y) {
+        return std::int64_t{x} - std::int64_t{y};
+    };
+    const auto at_surface = more(b.state.surface_bounces, a.state.surface_bounces);
+    const auto at_bottom = more(b.state.bottom_bounces, a.state.bottom_bounces);
+    if (std::abs(at_surface) + std::abs(at_bottom) != 1) return std::nullopt;
+    const Wall& wall = at_surface != 0 ? sea_.surface : sea_.bottom;
+    if (!wall.level) return std::nullopt;
+    const Probe &before = at_surface + at_bottom > 0 ? a : b, &behind = &before == &a ? b : a;
+    const double out = at_surface != 0 ? -1 : 1;
+    if (out * before.sine <= 0 || out * behind.sine >= 0) return std::nullopt;
+    return runs_one_way(a, mirrored(b, wall.depth_m), 0.8, 1.25) ? std::optional(wall.depth_m)
+                                                                 : std::nullopt;
 }
 
 /// Depths between two rays reach no farther than their steepest change allows, with something to
@@ -124,18 +150,40 @@ bool EigenraySearch::may_hold_depth(const Probe& a, const Probe& b) const {
 
 void EigenraySearch::split(const Probe& a, const Probe& b, double range_m, int halvings) {
     if (!may_hold_depth(a, b)) return;
-    if (halvings > 0 && !runs_one_way(a, b)) {
+    const bool same = a.same_history(b);
+    const auto mirror = same ? std::nullopt : mirror_between(a, b);
+    if (halvings > 0 && !mirror && !(same && runs_one_way(a, b, 0.6, 1.6))) {
         const Probe middle = probe(0.5 * (a.launch_rad + b.launch_rad), range_m);
         split(a, middle, range_m, halvings - 1);
         split(middle, b, range_m, halvings - 1);
         return;
     }
-    if (!a.same_history(b)) return;
+    if (same) add_brackets(a, b, std::nullopt);
+    if (mirror) add_brackets(a, mirrored(b, *mirror), mirror);
+}
+
+/// Of one depth, without mirrors.
+void EigenraySearch::split_again(const Bracket& bracket, double range_m) {
+    mirrors_ = false;
+    only_ = bracket.depth;
+    split(bracket.a, mirrored(bracket.b, *bracket.mirror), range_m, most_halvings);
+    mirrors_ = true;
+    only_.reset();
+}
+
+/// Depths that lie between those of two rays, and those whose mirror images do. One at the second
+/// ray is met in the next interval.
+void EigenraySearch::add_brackets(const Probe& a, const Probe& b, std::optional<double> mirror) {
     const double least_m = std::min(a.depth_m, b.depth_m), most_m = std::max(a.depth_m, b.depth_m);
-    auto depth = std::lower_bound(depth_m_.begin(), depth_m_.end(), least_m);
-    for (; depth != depth_m_.end() && *depth <= most_m; ++depth)
-        if (*depth != b.depth_m)  // that is met in the next interval
-            brackets_.push_back({a, b, static_cast<std::size_t>(depth - depth_m_.begin())});
+    for (std::size_t k = 0; k < depth_m_.size(); ++k) {
+        if (only_ && *only_ != k) continue;
+        const double z = depth_m_[k], image = mirror ? 2 * *mirror - z : z;
+        for (const double target : {z, image}) {
+            if (target >= least_m && target <= most_m && target != b.depth_m)
+                brackets_.push_back({a, b, k, mirror, target});
+            if (!mirror || z == *mirror) break;
+        }
+    }
 }
 
 /// The cubic through both ends of a bracket with the slopes that q gives there, launch over depth.
@@ -152,13 +200,18 @@ double EigenraySearch::launch_for(const Probe& from, const Probe& to, double dep
     return inside ? launch_rad : std::midpoint(from.launch_rad, to.launch_rad);
 }
 
-Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
-    const double depth_m = depth_m_[bracket.depth];
+/// Nothing where no ray comes there: depth does not run one way behind the mirror after all.
+std::optional<Probe> EigenraySearch::refine(const Bracket& bracket, double range_m) {
+    const double depth_m = bracket.depth_m;
     Probe from = bracket.a, to = bracket.b, at = bracket.a;
     if (from.depth_m == depth_m) return probe(from.launch_rad, range_m);
     const double way = to.depth_m > from.depth_m ? 1 : -1;
+    bool is_image = false;
     for (int k = 0; k < 40; ++k) {
         at = probe(launch_for(from, to, depth_m), range_m);
+        is_image = bracket.mirror && at.reached && !at.same_history(bracket.a);
+        if (is_image && !at.same_history(bracket.b)) return std::nullopt;
+        if (is_image) at = mirrored(at, *bracket.mirror);
         const double short_m = way * (depth_m - at.depth_m);
         const double step_rad = short_m / at.metres_per_rad(sea_.source_speed_mps);
         if (!at.reached || std::abs(short_m) < 1e-7) break;
@@ -166,6 +219,9 @@ Probe EigenraySearch::refine(const Bracket& bracket, double range_m) {
         (short_m > 0 ? from : to) = at;
         if (to.launch_rad - from.launch_rad < 1e-15) break;
     }
+    if (bracket.mirror && (!at.reached || std::abs(depth_m - at.depth_m) > last_step_m))
+        return std::nullopt;
+    if (is_image) at = mirrored(at, *bracket.mirror);
     return at;
 }
 

@@ -4,7 +4,9 @@
 #include "seautils/propagation/beam_kind.hpp"
 #include "seautils/propagation/ray_beam.hpp"
 
-#include <utility>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace seautils::propagation {
@@ -27,7 +29,8 @@ struct Probe {
 };
 
 /// Finds the rays that meet given depths at a range: between neighbours of a fan that have the same
-/// bounces behind them and no caustic between them depth runs one way; other intervals are halved,
+/// bounces behind them and no caustic between them depth runs one way. So it does where one of them
+/// has just met a level wall, and the other is about to: in the mirror. Other intervals are halved,
 /// where a receiver may lie in them.
 class EigenraySearch {
 public:
@@ -43,20 +46,33 @@ public:
     void between(const Probe& a, const Probe& b, double range_m, Found&& found) {
         brackets_.clear();
         split(a, b, range_m, most_halvings);
-        for (const auto& bracket : brackets_) found(bracket.depth, refine(bracket, range_m));
+        for (std::size_t k = 0; k < brackets_.size(); ++k) {
+            const Bracket bracket = brackets_[k];
+            if (const auto ray = refine(bracket, range_m))
+                found(bracket.depth, *ray);
+            else if (bracket.mirror)
+                split_again(bracket, range_m);
+        }
     }
 
 private:
     static constexpr int most_halvings = 22;
     static constexpr std::uint64_t most_search = 200'000'000;
+    /// Two rays, and a depth between theirs. Behind a mirror rays go on as if the wall were not there.
     struct Bracket {
         Probe a, b;
         std::size_t depth;
+        std::optional<double> mirror =
+            {};              ///< the depth of a wall; b has met it less or more often
+        double depth_m = 0;  ///< it lies there, or in the mirror
     };
     void split(const Probe& a, const Probe& b, double range_m, int halvings);
-    bool runs_one_way(const Probe& a, const Probe& b) const;
+    void split_again(const Bracket& bracket, double range_m);
+    std::optional<double> mirror_between(const Probe& a, const Probe& b) const;
+    void add_brackets(const Probe& a, const Probe& b, std::optional<double> mirror);
+    bool runs_one_way(const Probe& a, const Probe& b, double least, double most) const;
     bool may_hold_depth(const Probe& a, const Probe& b) const;
-    Probe refine(const Bracket& bracket, double range_m);
+    std::optional<Probe> refine(const Bracket& bracket, double range_m);
     double launch_for(const Probe& from, const Probe& to, double depth_m) const;
     Probe probe(double launch_rad, double range_m);
     void count_probe();
@@ -67,6 +83,8 @@ private:
     BeamWalk walk_;
     std::uint64_t probes_ = 0;
     std::vector<Bracket> brackets_;
+    std::optional<std::size_t> only_;  ///< depth that is looked for; none: all
+    bool mirrors_ = true;
 };
 
 }  // namespace seautils::propagation
