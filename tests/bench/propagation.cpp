@@ -66,24 +66,14 @@ void arrivals(benchmark::State& state, Environment sea) {
     state.counters["paths"] = static_cast<double>(paths);
 }
 
-/// A window of 176 m that moves, as receivers that come nearer do; the sea stays.
-void window_moves(benchmark::State& state, Environment sea) {
+/// A window of 19 ranges that moves, as receivers that come nearer do; the sea stays. By 13 m all of
+/// them are new; by a step of 10 m of the grid one is.
+void window(benchmark::State& state, Environment sea, double step_m, double width_m) {
     FieldComputer fields;
     double from_m = 1800;
     for (auto _ : state) {
-        sea.receivers.range_m = evenly(from_m, from_m + 176, 19);
-        from_m = from_m > 40 ? from_m - 13 : 1800;
-        benchmark::DoNotOptimize(fields.compute(sea, Engine::rays, {}));
-    }
-}
-
-/// … and one that moves from column to column of a grid, one new in each.
-void window_slides(benchmark::State& state, Environment sea) {
-    FieldComputer fields;
-    double from_m = 1800;
-    for (auto _ : state) {
-        sea.receivers.range_m = evenly(from_m, from_m + 180, 19);
-        from_m = from_m > 40 ? from_m - 10 : 1800;
+        sea.receivers.range_m = evenly(from_m, from_m + width_m, 19);
+        from_m = from_m > 40 ? from_m - step_m : 1800;
         benchmark::DoNotOptimize(fields.compute(sea, Engine::rays, {}));
     }
 }
@@ -97,9 +87,9 @@ void profile_changes(benchmark::State& state, Environment sea) {
     }
 }
 
-BENCHMARK_CAPTURE(window_moves, shelf, shelf())->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(window_moves, beach, beach())->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(window_slides, shelf, shelf())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(window, shelf_moves, shelf(), 13, 176)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(window, beach_moves, beach(), 13, 176)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(window, shelf_slides, shelf(), 10, 180)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(profile_changes, shelf, shelf())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(loss, shelf_incoherent, shelf(), Sum::incoherent)
     ->Arg(1)
