@@ -175,15 +175,18 @@ void EigenraySearch::split_again(const Bracket& bracket, double range_m) {
 /// ray is met in the next interval.
 void EigenraySearch::add_brackets(const Probe& a, const Probe& b, std::optional<double> mirror) {
     const double least_m = std::min(a.depth_m, b.depth_m), most_m = std::max(a.depth_m, b.depth_m);
-    for (std::size_t k = 0; k < depth_m_.size(); ++k) {
-        if (only_ && *only_ != k) continue;
-        const double z = depth_m_[k], image = mirror ? 2 * *mirror - z : z;
-        for (const double target : {z, image}) {
-            if (target >= least_m && target <= most_m && target != b.depth_m)
-                brackets_.push_back({a, b, k, mirror, target});
-            if (!mirror || z == *mirror) break;
+    const auto add = [&](double from_m, double to_m, bool is_image) {
+        auto depth = std::lower_bound(depth_m_.begin(), depth_m_.end(), from_m);
+        for (; depth != depth_m_.end() && *depth <= to_m; ++depth) {
+            const auto k = static_cast<std::size_t>(depth - depth_m_.begin());
+            if (only_ && *only_ != k) continue;
+            if (is_image && *depth == *mirror) continue;  // it is its own image
+            const double target_m = is_image ? 2 * *mirror - *depth : *depth;
+            if (target_m != b.depth_m) brackets_.push_back({a, b, k, mirror, target_m});
         }
-    }
+    };
+    add(least_m, most_m, false);
+    if (mirror) add(2 * *mirror - most_m, 2 * *mirror - least_m, true);
 }
 
 /// The cubic through both ends of a bracket with the slopes that q gives there, launch over depth.

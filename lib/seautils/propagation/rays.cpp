@@ -289,7 +289,8 @@ Field RayFields::field(const Environment& environment, const FieldOptions& optio
         add_pressures(known, environment, options, field);
     else
         add_intensities(known, environment, options, field);
-    field.basis.estimated_error_db = known.error_db[reach_m(environment)];
+    const auto error_db = known.error_db.find(reach_m(environment));
+    if (error_db != known.error_db.end()) field.basis.estimated_error_db = error_db->second;
     return field;
 }
 
