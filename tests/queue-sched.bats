@@ -452,7 +452,8 @@ END
     run -74 --separate-stderr bash -c 'queue-sched --id 3 one > /dev/full'
     assert_equal "$stderr" 'queue-sched: write failed: No space left on device'
     yes "$(cat one)" | head -20000 > many
-    run_quiet bash -c "queue-sched --id 3 many | head -1; exit \${PIPESTATUS[0]/141/0}"
+    # -q: a reader that is slow to begin is said to be slow
+    run_quiet bash -c "queue-sched --id 3 -q many | head -1; exit \${PIPESTATUS[0]/141/0}"
     assert_output "$(cat one)"
     assert_answered_at_once one one queue-sched --id 3
     for signal in TERM INT HUP; do assert_dies_of $signal one queue-sched --id 3 --spool q.db; done

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 namespace seautils::dccl {
 namespace {
@@ -177,16 +178,78 @@ TEST(DcclLegacy, ShortForeignAndSurplusFramesAreRefused) {
     EXPECT_EQ(legacy_id(bytes), 5);
 }
 
-TEST(DcclLegacy, SchemasThatCannotWorkAreLocated) {
-    const auto refusal = [](const std::string& xml) -> std::string {
-        schema::LayoutSet layouts;
-        try {
-            parse_legacy("log.xml", xml, layouts);
-        } catch (const ConfigError& e) {
-            return e.what();
+std::string number(const std::string& min, const std::string& max, int precision,
+                   const std::string& more = "") {
+    return with_layout(
+        fmt::format("<float><name>x</name><min>{}</min><max>{}</max>"
+                    "<precision>{}</precision>{}</float>",
+                    min, max, precision, more));
+}
+
+TEST(DcclLegacy, StepsAreToldApartAsFarAsBoundsMayGo) {
+    std::mt19937_64 dice(20261201);
+    for (int precision = -12; precision <= 12; ++precision) {
+        const std::int64_t most = std::int64_t{1} << (precision == 0 ? 53 : 51);
+        for (int k = 0; k < 100; ++k) {
+            // Both are the doubles next to a decimal number, and within the limit.
+            const auto low = most - 3 - static_cast<std::int64_t>(dice() % 1'000'000);
+            const auto high = low + 1 + static_cast<std::int64_t>(dice() % 3);
+            const auto written = [&](std::int64_t steps) {
+                return fmt::format("{}e{}", k % 2 == 0 ? steps : -steps, -precision);
+            };
+            Legacy log(number(written(low), written(high), precision));
+            const LegacyMessage& m = log.message();
+            for (std::int64_t at = low; at <= high; ++at) {
+                const double x = std::strtod(written(at).c_str(), nullptr);
+                const json back = log.decode(m, log.encode(m, {{"x", x}}));
+                ASSERT_EQ(back.at("x"), x) << written(at) << " of " << written(low);
+            }
         }
-        return "";
-    };
+    }
+}
+
+std::string refusal(const std::string& xml) {
+    schema::LayoutSet layouts;
+    try {
+        parse_legacy("log.xml", xml, layouts);
+    } catch (const ConfigError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST(DcclLegacy, AHalfStepOfDifferenceBringsNoNegativeZero) {
+    // Element 0 is 1, and differences go from -1.5 in steps of 1: code 2 is -0.5, so 0.5, so 0;
+    // that is -1 from element 0, code 1, again 0. Halves go to the even.
+    Legacy log(number("0", "1", 0, "<array_length>2</array_length><max_delta>1.5</max_delta>"));
+    const LegacyMessage& m = log.message();
+    ASSERT_EQ(m.body_bits(), 2 + 3U);
+    for (const char* frame : {"200280000000"
+                              "0a",
+                              "200280000000"
+                              "06"}) {
+        const json x = log.decode(m, frame).at("x");
+        EXPECT_EQ(x.dump(), "[1,0]") << frame;
+        EXPECT_EQ(log.decode(m, log.encode(m, {{"x", x}})).at("x").dump(), x.dump());
+    }
+}
+
+TEST(DcclLegacy, BoundsBeyondTheStepsOfADoubleAreRefused) {
+    EXPECT_EQ(refusal(number("9007199254740990", "9007199254740992", 0)), "");
+    EXPECT_EQ(refusal(number("9007199254740990", "9007199254740994", 0)),
+              "log.xml:1: field 'x' goes beyond 2^53 steps of 10^0");
+    EXPECT_EQ(refusal(number("2251799813685247e-3", "2251799813685248e-3", 3)), "");
+    EXPECT_EQ(refusal(number("-2251799813685250e-3", "-2251799813685249e-3", 3)),
+              "log.xml:1: field 'x' goes beyond 2^51 steps of 10^-3");
+    EXPECT_EQ(refusal(number("-1e300", "-1e300", -2)),
+              "log.xml:1: field 'x' goes beyond 2^51 steps of 10^2");
+    const std::string row = "<array_length>3</array_length><max_delta>1e9</max_delta>";
+    EXPECT_EQ(refusal(number("2251799813685000e6", "2251799813685100e6", -6, row)),
+              "log.xml:1: field 'x' goes beyond 2^51 steps of 10^6")
+        << "an element may lie max_delta beyond";
+}
+
+TEST(DcclLegacy, SchemasThatCannotWorkAreLocated) {
     EXPECT_EQ(refusal(with_layout("<bool><name>b</name></bool>")), "");
     EXPECT_TRUE(refusal("<message_set>\n<message>").starts_with("log.xml:2: not well-formed"));
     EXPECT_TRUE(refusal("<other/>").starts_with("log.xml:1: the root"));

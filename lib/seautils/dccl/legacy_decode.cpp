@@ -123,7 +123,7 @@ void LegacyDecoder::resolve(const LegacyField& f, std::uint32_t first) {
             s.present = false;
             continue;
         }
-        s.d = f.unscaled(std::nearbyint(f.scaled(key.d) + s.d));
+        s.d = f.unscaled(f.scaled(key.d) + s.d);
     }
 }
 
@@ -138,11 +138,8 @@ void LegacyDecoder::code(const LegacyField& f, std::uint32_t slot, std::uint64_t
     const bool is_delta = f.max_delta > 0 && !is_key;
     double codes = static_cast<double>(f.values.size());
     if (f.kind == LegacyKind::boolean) codes = 2;
-    if (f.kind == LegacyKind::number) {
-        codes = std::nearbyint(is_delta ? 2 * f.bound_scaled(f.max_delta)
-                                        : f.bound_scaled(f.max) - f.bound_scaled(f.min)) +
-                1;
-    }
+    if (f.kind == LegacyKind::number)
+        codes = std::nearbyint(is_delta ? f.delta_span() : f.key_span()) + 1;
     const std::uint64_t position = code - 1;
     if (static_cast<double>(position) >= codes)
         return refused(fmt::format("code {} stands for nothing", code));
@@ -154,7 +151,7 @@ void LegacyDecoder::code(const LegacyField& f, std::uint32_t slot, std::uint64_t
     else if (is_delta)
         s.d = static_cast<double>(position) - f.bound_scaled(f.max_delta);
     else
-        s.d = f.unscaled(std::nearbyint(static_cast<double>(position) + f.bound_scaled(f.min)));
+        s.d = f.unscaled(static_cast<double>(position) + f.bound_scaled(f.min));
 }
 
 void LegacyDecoder::text(const LegacyField& f, std::uint32_t slot, MsbReader& in) {

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <set>
 
 namespace seautils::dccl {
@@ -29,10 +30,12 @@ constexpr std::uint64_t header_bytes = 6;
 constexpr std::array<double, 13> tens = {1,   1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
                                          1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
 
-/// What every decimal number of a schema is after scaling: whole, but for the last bits.
+/// What every decimal number of a schema is after scaling: whole, but for what rounding it twice,
+/// to a double and in scaling, can make.
 double snapped(double x) {
     const double whole = std::nearbyint(x);
-    return std::fabs(x - whole) < 1e-6 ? whole : x;
+    const double rounding = std::numeric_limits<double>::epsilon() * std::fabs(x);
+    return std::fabs(x - whole) <= std::max(1e-6, rounding) ? whole : x;
 }
 
 double times_ten(double x, int power) {
@@ -51,7 +54,9 @@ std::uint64_t LegacyField::bits() const {
     return width + std::uint64_t{array_length - 1} * delta_width;
 }
 double LegacyField::scaled(double x) const { return std::nearbyint(times_ten(x, precision)); }
-double LegacyField::unscaled(double steps) const { return times_ten(steps, -precision); }
+double LegacyField::unscaled(double steps) const {
+    return times_ten(std::nearbyint(steps) + 0.0, -precision);  // + 0.0: no -0
+}
 double LegacyField::bound_scaled(double x) const { return snapped(times_ten(x, precision)); }
 
 std::uint32_t LegacyMessage::array_length(std::string_view name) const {
@@ -228,6 +233,13 @@ void LegacyLoader::number(const Node& node, LegacyField& f) {
         f.precision = static_cast<int>(p);
     }
     if (node.child("max_delta")) f.max_delta = std::fabs(real(node, "max_delta"));
+    // Scaling rounds twice; a quarter of a step is then the most that both make.
+    const int most = f.precision == 0 ? 53 : 51;
+    const double farthest = std::max(std::fabs(f.min), std::fabs(f.max)) + f.max_delta;
+    if (!(times_ten(farthest, f.precision) <= std::ldexp(1.0, most))) {
+        refuse(node, fmt::format("field {} goes beyond 2^{} steps of 10^{}", quote(f.name), most,
+                                 -f.precision));
+    }
 }
 
 void LegacyLoader::widths(const Node& node, LegacyField& f) {
@@ -242,7 +254,7 @@ void LegacyLoader::widths(const Node& node, LegacyField& f) {
             f.width = 2;
             break;
         case LegacyKind::number:
-            f.width = width(snapped(times_ten(f.max - f.min, f.precision)));
+            f.width = width(f.key_span());
             break;
         case LegacyKind::enumeration:
             f.width = bits_for(static_cast<double>(f.values.size()) + 1);
@@ -255,8 +267,7 @@ void LegacyLoader::widths(const Node& node, LegacyField& f) {
             f.width = 0;
             break;
     }
-    f.delta_width =
-        f.max_delta > 0 ? width(snapped(times_ten(2 * f.max_delta, f.precision))) : f.width;
+    f.delta_width = f.max_delta > 0 ? width(f.delta_span()) : f.width;
 }
 
 LegacyField LegacyLoader::field(const Node& node) {

@@ -27,12 +27,15 @@ struct LegacyField {
     unsigned delta_width = 0;         ///< bits of the other elements
 
     std::uint64_t bits() const;  ///< of all elements
-    /// x in steps, rounded to the nearest, halves to even; and back, the double nearest to the
-    /// decimal number.
+    /// x in steps, rounded to the nearest, halves to even; and back, so rounded, as the double
+    /// nearest to the decimal number. Back it is never -0.
     double scaled(double x) const;
     double unscaled(double steps) const;
     /// A bound or a difference in steps: whole where it is meant to be (0.3 / 0.1).
     double bound_scaled(double x) const;
+    /// From the least to the greatest, in steps: of element 0, and of a difference from it.
+    double key_span() const { return bound_scaled(max) - bound_scaled(min); }
+    double delta_span() const { return 2 * bound_scaled(max_delta); }
 };
 
 /// Places of the header's parts in the layout; the fields of the body follow.
@@ -80,7 +83,8 @@ struct LegacySchema {
 /// 65,536 bytes a message, 10,000 fields.
 ///
 /// Left open by the sources, and decided so: `<repeat/>` leaves static fields single; a max_delta
-/// of 0 means none; names of fields and header parts must differ.
+/// of 0 means none; names of fields and header parts must differ. A number is at most 2^53 steps
+/// from 0, or 2^51 where it has a precision: beyond, a double does not keep each step apart.
 /// @throws Error(no_input)  cannot be opened
 /// @throws ConfigError      `FILE:LINE: what`: not well-formed, a tag that is missing, a number that
 ///                          is none, a layout that is longer than `<size>`, ids or names twice
