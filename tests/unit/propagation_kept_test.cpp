@@ -1,5 +1,5 @@
 // What is kept from one field to the next changes no answer: not by a bit, whatever came before.
-#include "propagation_grids.hpp"
+#include "propagation_seas.hpp"
 
 #include "seautils/propagation/beam_intensity.hpp"
 #include "seautils/propagation/column_store.hpp"

@@ -1,8 +1,7 @@
 // Modes and wavenumber integration: against closed forms, against each other, and at the edge of what they can do.
 #include "seautils/propagation/modes.hpp"
 
-#include "seautils/core/error.hpp"
-#include "seautils/propagation/engine.hpp"
+#include "propagation_seas.hpp"
 #include "seautils/propagation/hankel.hpp"
 #include "seautils/propagation/mode_search.hpp"
 #include "seautils/propagation/reflection.hpp"
@@ -18,33 +17,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 using Complex = std::complex<double>;
-
-Boundary fluid(double mps, double gcm3, double db) {
-    Boundary b;
-    b.kind = BoundaryKind::half_space;
-    b.sound_speed_mps = mps;
-    b.density_gcm3 = gcm3;
-    b.attenuation_db_per_wavelength = db;
-    return b;
-}
-
-Environment pekeris() {
-    Environment e;
-    e.frequency_hz = 250;
-    e.source.depth_m = 36;
-    e.water.profile = {{0, 1500}};
-    e.bottom = fluid(1700, 1.8, 0.5);
-    e.bottom_depth_m = 100;
-    for (int k = 1; k < 20; ++k) e.receivers.depth_m.push_back(5 * k);
-    for (int k = 1; k <= 50; ++k) e.receivers.range_m.push_back(100 * k);
-    return e;
-}
-
-FieldOptions coherent() {
-    FieldOptions o;
-    o.sum = Sum::coherent;
-    return o;
-}
 
 /// The modes of a sea as they are searched for.
 ModeSet modes_of(const Environment& e, double least_speed_mps, std::size_t steps) {
@@ -126,7 +98,7 @@ TEST(PropagationModes, AgreeWithWavenumbers) {
     expect_engines_agree(e, 300, "two ducts");
     e.water.interpolation = SpeedInterpolation::n2_linear;
     expect_engines_agree(e, 300, "n2-linear");
-    e.bottom = fluid(1450, 1.6, 0.3);
+    e.bottom = half_space(1450, 1.6, 0.3);
     expect_engines_agree(e, 1000, "slow bottom");
 }
 
@@ -177,7 +149,7 @@ TEST(PropagationWavenumber, OfTheLloydMirrorIsItsClosedForm) {
     Environment e = pekeris();
     e.frequency_hz = 100;
     e.source.depth_m = 25;
-    e.bottom = fluid(1500, 1, 0);
+    e.bottom = half_space(1500, 1, 0);
     e.bottom_depth_m = 200;
     e.receivers.depth_m = {10, 60, 150};
     e.receivers.range_m = {100, 300, 700, 1500};
@@ -198,12 +170,13 @@ TEST(PropagationWavenumber, OfTheLloydMirrorIsItsClosedForm) {
 }
 
 TEST(PropagationEdge, ReflectsAsThePlaneWaveCoefficient) {
-    Boundary elastic = fluid(2400, 2, 0.3);
+    Boundary elastic = half_space(2400, 2, 0.3);
     elastic.shear_speed_mps = 900;
     elastic.shear_attenuation_db_per_wavelength = 0.6;
-    Boundary rough = fluid(1600, 1.5, 0.4);
+    Boundary rough = half_space(1600, 1.5, 0.4);
     rough.roughness_m = 0.8;
-    for (const Boundary& b : {fluid(1700, 1.8, 0.5), fluid(1450, 1.4, 0.1), elastic, rough}) {
+    for (const Boundary& b :
+         {half_space(1700, 1.8, 0.5), half_space(1450, 1.4, 0.1), elastic, rough}) {
         const Edge edge(b, "bottom", 250, 1.03);
         const double k = 2 * pi * 250 / 1500;
         for (double deg = 1; deg < 90; deg += 4) {
@@ -290,7 +263,7 @@ TEST(PropagationModes, RefuseWhatTheyCannotByName) {
     e.bottom.table = {{0, 1, 180}, {90, 0.5, 0}};
     EXPECT_EQ(refusal(mode_field, e, o), "bottom.table: modes and wavenumbers need a half-space");
     e = pekeris();
-    e.bottom = fluid(1500, 1, 0);
+    e.bottom = half_space(1500, 1, 0);
     EXPECT_NE(refusal(mode_field, e, o).find("reflects nothing"), std::string::npos);
     e = pekeris();
     e.frequency_hz = 1e6;
@@ -333,7 +306,7 @@ TEST(PropagationEngine, IsChosenByHowManyModesThereAre) {
     e.fan.beams = 1000;
     EXPECT_EQ(choose_engine(e, coherent()).engine, Engine::rays);
     e = pekeris();
-    e.bottom = fluid(1500, 1, 0);
+    e.bottom = half_space(1500, 1, 0);
     EXPECT_EQ(choose_engine(e, coherent()).why, "the boundaries hold no modes");
     e = pekeris();
     const Field f = compute_field(e, Engine::automatic, coherent());

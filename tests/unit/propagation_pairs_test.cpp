@@ -1,5 +1,5 @@
 // Receivers that are pairs: the values of grids, in the order asked for.
-#include "propagation_grids.hpp"
+#include "propagation_seas.hpp"
 
 #include "seautils/core/error.hpp"
 #include "seautils/propagation/case_file.hpp"

@@ -1,12 +1,11 @@
 // What the sea does to sound: absorption and reflection; and what an environment may say.
-#include "seautils/core/error.hpp"
+#include "propagation_seas.hpp"
 #include "seautils/propagation/absorption.hpp"
 #include "seautils/propagation/reflection.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -58,15 +57,6 @@ TEST(PropagationAbsorption, SaysWhereItIsExtrapolated) {
     EXPECT_EQ(absorption_db_per_km(a, 25000), 2.5);
     a.model = AbsorptionModel::none;
     EXPECT_EQ(absorption_db_per_km(a, 25000), 0);
-}
-
-Boundary half_space(double speed_mps, double density_gcm3, double db_per_wavelength) {
-    Boundary b;
-    b.kind = BoundaryKind::half_space;
-    b.sound_speed_mps = speed_mps;
-    b.density_gcm3 = density_gcm3;
-    b.attenuation_db_per_wavelength = db_per_wavelength;
-    return b;
 }
 
 std::complex<double> reflected(const Boundary& boundary, double grazing_deg) {
@@ -160,62 +150,55 @@ Environment shelf() {
     return e;
 }
 
-std::string refusal(const std::function<void(Environment&)>& change) {
-    Environment e = shelf();
-    change(e);
-    try {
-        check(e);
-    } catch (const DataError& error) {
-        return error.what();
-    }
-    return "accepted";
-}
-
 TEST(PropagationEnvironment, WhatMeansSomethingIsAccepted) {
-    EXPECT_EQ(refusal([](Environment&) {}), "accepted");
-    EXPECT_EQ(refusal([](Environment& e) { e.source.depth_m = 100; }), "accepted");
-    EXPECT_EQ(refusal([](Environment& e) { e.water.profile.resize(1); }), "accepted");
-    EXPECT_EQ(refusal([](Environment& e) { e.receivers.range_m = {0}; }), "accepted");
+    EXPECT_EQ(refusal(shelf(), [](Environment&) {}), "accepted");
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.source.depth_m = 100; }), "accepted");
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.water.profile.resize(1); }), "accepted");
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.receivers.range_m = {0}; }), "accepted");
 }
 
 TEST(PropagationEnvironment, NonsenseIsRefusedByName) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(refusal([](Environment& e) { e.frequency_hz = 0; }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.frequency_hz = 0; }),
               "frequency_hz 0 is outside 0.1 to 10000000 Hz");
-    EXPECT_EQ(refusal([](Environment& e) { e.source.depth_m = 101; }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.source.depth_m = 101; }),
               "source.depth_m 101 is outside 0 to 100 m");
-    EXPECT_EQ(refusal([&](Environment& e) { e.water.profile[1].sound_speed_mps = nan; }),
+    EXPECT_EQ(refusal(shelf(), [&](Environment& e) { e.water.profile[1].sound_speed_mps = nan; }),
               "water.profile[1].sound_speed_mps nan is outside 100 to 10000 m/s");
-    EXPECT_EQ(refusal([](Environment& e) { e.water.profile[1].depth_m = 0; }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.water.profile[1].depth_m = 0; }),
               "water.profile[1].depth_m 0 is not more than the 0 before it");
-    EXPECT_EQ(refusal([](Environment& e) { e.water.profile.clear(); }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.water.profile.clear(); }),
               "water.profile has 0 values, less than 1");
-    EXPECT_EQ(refusal([](Environment& e) { e.receivers.range_m.clear(); }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.receivers.range_m.clear(); }),
               "receivers.range_m has 0 values, less than 1");
-    EXPECT_EQ(refusal([](Environment& e) {
-                  e.receivers.range_m = {5, 5};
-              }),
+    EXPECT_EQ(refusal(shelf(),
+                      [](Environment& e) {
+                          e.receivers.range_m = {5, 5};
+                      }),
               "receivers.range_m[1] 5 is not more than the 5 before it");
-    EXPECT_EQ(refusal([](Environment& e) {
-                  e.bottom_line = Line{false, {0, 1000}, {100}};
-              }),
+    EXPECT_EQ(refusal(shelf(),
+                      [](Environment& e) {
+                          e.bottom_line = Line{false, {0, 1000}, {100}};
+                      }),
               "bottom_line.depth_m has 1 values, not the 2 of bottom_line.range_m");
-    EXPECT_EQ(refusal([](Environment& e) { e.bottom_depth_m = 0; }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.bottom_depth_m = 0; }),
               "bottom_depth_m 0 leaves no water at the source");
-    EXPECT_EQ(refusal([](Environment& e) { e.bottom.density_gcm3 = 0; }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.bottom.density_gcm3 = 0; }),
               "bottom.density_gcm3 0 is outside 0.001 to 20 g/cm3");
-    EXPECT_EQ(refusal([](Environment& e) { e.fan.most_deg = -80; }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.fan.most_deg = -80; }),
               "fan.most_deg -80 is not more than fan.least_deg -80");
-    EXPECT_EQ(refusal([](Environment& e) {
-                  e.water.mesh = SpeedMesh{{0, 10}, {0}, {1500}};
-              }),
+    EXPECT_EQ(refusal(shelf(),
+                      [](Environment& e) {
+                          e.water.mesh = SpeedMesh{{0, 10}, {0}, {1500}};
+                      }),
               "water.mesh.sound_speed_mps has 1 values, not the 2 of 1 depths and 2 ranges");
-    EXPECT_EQ(refusal([](Environment& e) { e.bottom.kind = BoundaryKind::table; }),
+    EXPECT_EQ(refusal(shelf(), [](Environment& e) { e.bottom.kind = BoundaryKind::table; }),
               "bottom.table has 0 values, less than 1");
-    EXPECT_EQ(refusal([](Environment& e) {
-                  e.receivers.depth_m.resize(10000);
-                  e.receivers.range_m.resize(10000);
-              }),
+    EXPECT_EQ(refusal(shelf(),
+                      [](Environment& e) {
+                          e.receivers.depth_m.resize(10000);
+                          e.receivers.range_m.resize(10000);
+                      }),
               "10000 depths at 10000 ranges are more than 20000000 receivers");
 }
 

@@ -1,6 +1,6 @@
 // Rays against closed forms: straight ones and their images, arcs, cycles; and worlds at the edge
 // of sense.
-#include "propagation_grids.hpp"
+#include "propagation_seas.hpp"
 
 #include "seautils/propagation/rays.hpp"
 
