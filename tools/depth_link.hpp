@@ -5,6 +5,7 @@
 #include "depth_options.hpp"
 #include "depth_schema.hpp"
 #include "gnuplot.hpp"
+#include "record_form.hpp"
 
 #include "seautils/cli/app.hpp"
 #include "seautils/cli/io.hpp"
@@ -13,7 +14,6 @@
 #include "seautils/schema/json.hpp"
 #include "seautils/schema/message.hpp"
 #include "seautils/schema/number_text.hpp"
-#include "seautils/stream/hex.hpp"
 
 #include <cmath>
 #include <map>
@@ -173,14 +173,7 @@ private:
     }
 
     void put(const schema::Values& values) {
-        if (io_.format == "delimited") {
-            bytes_.clear();
-            schema::write_binary(values, bytes_);
-            stream::append_delimited(io_.out.buffer(), bytes_);
-        } else {
-            schema::write_json(values, io_.out.buffer());
-            io_.out.buffer() += '\n';
-        }
+        append_record(values, io_.format, io_.out.buffer());
         io_.out.commit();
     }
 
@@ -283,7 +276,6 @@ private:
     schema::JsonReader reader_;
     schema::Values values_;
     std::vector<plan::LinkSample> samples_;
-    std::string bytes_;
 };
 
 inline int link_stats_main(int argc, char** argv) {

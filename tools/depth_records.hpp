@@ -3,15 +3,14 @@
 #define SEAUTILS_TOOLS_DEPTH_RECORDS_HPP
 
 #include "depth_schema.hpp"
+#include "record_form.hpp"
 
 #include "seautils/cli/io.hpp"
 #include "seautils/core/time.hpp"
 #include "seautils/plan/limits.hpp"
 #include "seautils/plan/objective.hpp"
-#include "seautils/schema/json.hpp"
 #include "seautils/schema/message.hpp"
 #include "seautils/schema/number_text.hpp"
-#include "seautils/stream/hex.hpp"
 
 #include <cmath>
 #include <optional>
@@ -51,15 +50,7 @@ public:
     }
 
 private:
-    void put(const schema::Values& values) {
-        if (io_.format == "delimited") {
-            bytes_.clear();
-            schema::write_binary(values, bytes_);
-            return stream::append_delimited(io_.out.buffer(), bytes_);
-        }
-        schema::write_json(values, io_.out.buffer());
-        io_.out.buffer() += '\n';
-    }
+    void put(const schema::Values& values) { append_record(values, io_.format, io_.out.buffer()); }
 
     void write_record(const DepthDecision& d) {
         namespace f = field::decision;
@@ -164,7 +155,6 @@ private:
 
     cli::Io& io_;
     DepthSchema schema_;
-    std::string bytes_;
     bool header_ = false;
 };
 

@@ -2,6 +2,7 @@
 #ifndef SEAUTILS_TOOLS_SSP_CASTS_HPP
 #define SEAUTILS_TOOLS_SSP_CASTS_HPP
 
+#include "record_form.hpp"
 #include "ssp_options.hpp"
 #include "ssp_records.hpp"
 
@@ -259,15 +260,8 @@ private:
             csv_.write(profile, io_.out.buffer());
             return io_.out.commit();
         }
-        const schema::Values& values = writer_.put(profile, name_ == "<stdin>" ? "" : name_);
-        if (io_.format == "delimited") {
-            bytes_.clear();
-            schema::write_binary(values, bytes_);
-            stream::append_delimited(io_.out.buffer(), bytes_);
-        } else {
-            schema::write_json(values, io_.out.buffer());
-            io_.out.buffer() += '\n';
-        }
+        append_record(writer_.put(profile, name_ == "<stdin>" ? "" : name_), io_.format,
+                      io_.out.buffer());
         io_.out.commit();
     }
 
@@ -280,7 +274,7 @@ private:
     std::optional<cli::Loop> loop_;  ///< where silence is waited for
     ProfileWriter writer_;
     ProfileCsv csv_;
-    std::string name_, bytes_;
+    std::string name_;
     acoustics::DropCounts counts_, total_;  ///< since the last profile; of the file
     double latitude_deg_ = acoustics::not_available, longitude_deg_ = acoustics::not_available;
     std::uint64_t written_ = 0, said_ = 0;

@@ -12,7 +12,6 @@
 #include "seautils/schema/message.hpp"
 #include "seautils/schema/number_text.hpp"
 #include "seautils/schema/values.hpp"
-#include "seautils/stream/hex.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #ifndef SEAUTILS_TOOLS_TL_SESSION_HPP
 #define SEAUTILS_TOOLS_TL_SESSION_HPP
 
+#include "record_form.hpp"
 #include "tl_answer.hpp"
 #include "tl_options.hpp"
 #include "tl_plot.hpp"
@@ -16,7 +17,6 @@
 #include "seautils/propagation/case_file.hpp"
 #include "seautils/schema/json.hpp"
 #include "seautils/schema/message.hpp"
-#include "seautils/stream/hex.hpp"
 #include "seautils/stream/whole_file.hpp"
 #include "seautils/toolbox/env_file.hpp"
 
@@ -235,22 +235,10 @@ private:
                 io_.out.commit();
             }
         } else {
-            write_record(result, out);
+            append_record(writer_.put(result), io_.format, out);
         }
         io_.out.commit();
         if (!result.error.empty()) io_.refuse(result.task->place, result.error);
-    }
-
-    void write_record(const TlResult& result, std::string& out) {
-        const schema::Values& values = writer_.put(result);
-        if (io_.format == "ndjson") {
-            schema::write_json(values, out);
-            out += '\n';
-            return;
-        }
-        bytes_.clear();
-        schema::write_binary(values, bytes_);
-        stream::append_delimited(out, bytes_);
     }
 
     cli::Io& io_;
@@ -262,7 +250,6 @@ private:
     schema::JsonReader json_;
     schema::Values values_;
     TlAnswerWriter writer_;
-    std::string bytes_;
 };
 
 }  // namespace seautils::tools
