@@ -102,6 +102,28 @@ TEST(Pairs, OfADiagonalComeInTheirOrder) {
     EXPECT_EQ(field.loss_db[25], field.loss_db[24]);
 }
 
+TEST(Pairs, InSeveralBlocksHaveTheRaysOfAll) {
+    Environment sea = waveguide();
+    sea.receivers.range_m = evenly(100, 3000, 30);
+    Environment there = sea;
+    std::vector<std::size_t> cells;
+    std::tie(there.receivers, cells) = shuffled(sea.receivers);
+    for (const Sum sum : {Sum::incoherent, Sum::coherent}) {
+        FieldOptions options;
+        options.sum = sum;
+        const Field grid = compute_field(sea, Engine::rays, options);
+        std::size_t runs = 0;
+        const Field field = field_at_pairs(there, {100, 100}, [&](const Environment& block) {
+            ++runs;
+            return compute_field(block, Engine::rays, options);
+        });
+        EXPECT_GE(runs, 8U);
+        EXPECT_EQ(field.basis.beams, grid.basis.beams);
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            ASSERT_EQ(field.loss_db[k], grid.loss_db[cells[k]]) << k;
+    }
+}
+
 TEST(Pairs, InSeveralBlocksHaveTheFanAndTheModesOfAll) {
     const Environment sea = waveguide();
     Environment there = sea;
