@@ -208,6 +208,9 @@ TEST(SchemaPool, FaultsArePlacedInTheFileThatHasThem) {
     EXPECT_TRUE(fault("option.proto").starts_with("78 option.proto:4:")) << fault("option.proto");
     folder.add("noise.proto", "\x01\xff\xfe{");
     EXPECT_TRUE(fault("noise.proto").starts_with("78 noise.proto:1:")) << fault("noise.proto");
+    folder.add("long.proto", proto2("import \"" + std::string(3000, '\x7f') + "\";\n"));
+    EXPECT_TRUE(fault("long.proto").starts_with("78 long.proto:2:1: import \"\\x7f\\x7f"));
+    EXPECT_LT(fault("long.proto").size(), 1300U);
 }
 
 TEST(SchemaPool, CirclesOfImportsAreRefused) {

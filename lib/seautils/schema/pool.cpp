@@ -33,6 +33,8 @@ using google::protobuf::FileDescriptor;
 constexpr std::size_t max_files = 1000;
 constexpr std::size_t max_text_bytes = 1U << 20;
 constexpr int max_folder_depth = 16;
+/// Bytes of what is said of a schema, in which paths and names may be of any length.
+constexpr std::size_t longest_fault = 1200;
 
 /// Keeps the first faults that protobuf finds.
 class Faults : public google::protobuf::compiler::MultiFileErrorCollector {
@@ -52,9 +54,10 @@ public:
     void clear() { placed_.clear(), unplaced_.clear(); }
     /// The first fault with a place and, where it is an import that failed, why.
     std::string what() const {
-        if (placed_.empty()) return unplaced_;
+        if (placed_.empty()) return printable(unplaced_, longest_fault);
         const bool import = placed_.find("was not found or had errors") != std::string::npos;
-        return import && !unplaced_.empty() ? placed_ + " (" + unplaced_ + ")" : placed_;
+        return printable(import && !unplaced_.empty() ? placed_ + " (" + unplaced_ + ")" : placed_,
+                         longest_fault);
     }
 
 private:
