@@ -52,6 +52,32 @@ inline void pass(const Leg& leg, BeamState& state) {
     ++(leg.touch == Touch::surface ? state.surface_bounces : state.bottom_bounces);
 }
 
+/// Where nothing depends on range: which of the legs that it came by a ray that met a wall or
+/// turned goes back by, until it is where it began.
+class WayBack {
+public:
+    bool goes_on() const { return back_; }
+    /// Among those of the ray. @pre goes_on()
+    const Leg& leg(const std::vector<Leg>& legs) const { return legs[end_ - 1]; }
+    /// The kth leg is this one.
+    void add(std::size_t k, const Leg& leg) {
+        if (back_) {
+            --end_;
+        } else {
+            const bool touched = leg.touch != Touch::none;
+            back_ = touched || leg.sine * leg.whole.sine < 0;
+            end_ = touched ? k + 1 : k;  // the leg on which it turns is its own image
+        }
+        if (!back_ || end_ > first_) return;
+        back_ = false;
+        first_ = k + 1;
+    }
+
+private:
+    std::size_t first_ = 0, end_ = 0;  ///< of the legs not gone back by
+    bool back_ = false;
+};
+
 /// Legs of one ray; where the sea is periodic, of its first cycle, again and again.
 class BeamWalk {
 public:
@@ -80,14 +106,15 @@ public:
         };
         std::size_t known = 0;
         bool whole = false;
+        WayBack back;
         while (!whole) {
             if (known == room_.size()) room_.emplace_back();
             Leg& leg = room_[known];
-            if (!tracer.next(leg)) return;
+            if (!(back.goes_on() ? tracer.next(leg, back.leg(room_)) : tracer.next(leg))) return;
             finish(sea_, leg);
             if (!step(leg)) return;
             if (!sea_.periodic) continue;
-            ++known;
+            back.add(known++, leg);
             whole = tracer.at_start();
         }
         for (std::size_t k = 0; step(room_[k]); k = k + 1 < known ? k + 1 : 0) {

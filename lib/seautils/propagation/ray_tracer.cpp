@@ -135,7 +135,7 @@ void RayTracer::begin(Leg& leg) const {
 
 /// Up to the edge of the layer that it runs to, or back to the one it came from where it turns
 /// before.
-RayTracer::End RayTracer::to_layer(Leg& leg) const {
+void RayTracer::to_layer(Leg& leg) const {
     const double top_m = sea_.layer_edge_m[layer_], floor_m = sea_.layer_edge_m[layer_ + 1];
     Advance& to = leg.whole;
     to.down_m = (sine_ > 0 ? floor_m : top_m) - depth_m_;
@@ -143,13 +143,21 @@ RayTracer::End RayTracer::to_layer(Leg& leg) const {
     if (std::abs(to.cosine) <= 1) {
         to.sine = std::copysign(std::max(root_of_rest(to.cosine), least_sine), sine_);
         to.along_m = to.down_m * (cosine_ + to.cosine) / (sine_ + to.sine);
-        return End::layer;
+        return;
     }
     to.down_m = (sine_ > 0 ? top_m : floor_m) - depth_m_;
     to.cosine = cosine_ - leg.curvature * to.down_m;
     to.sine = -std::copysign(std::max(root_of_rest(to.cosine), least_sine), sine_);
     to.along_m = std::abs(to.cosine) <= 1 ? (to.sine - sine_) / leg.curvature
                                           : std::copysign(far_m, cosine_);
+}
+
+/// The level wall at the edge of the layer to which a leg leads, if one is there.
+RayTracer::End RayTracer::level_wall(const Leg& leg) const {
+    const bool down = leg.whole.sine > 0;
+    const double edge_m = sea_.layer_edge_m[layer_ + (down ? 1 : 0)];
+    if (down && sea_.bottom.level && edge_m >= sea_.bottom.depth_m) return End::bottom;
+    if (!down && sea_.surface.level && edge_m <= sea_.surface.depth_m) return End::surface;
     return End::layer;
 }
 
@@ -268,16 +276,16 @@ void RayTracer::reflect(Leg& leg, const Wall& wall, Touch touch) {
     sine_ = along * s.sine - out * across * s.cosine;
 }
 
-void RayTracer::arrive(Leg& leg, End end) {
+/// To the end of a leg.
+void RayTracer::move(const Leg& leg) {
     range_m_ += leg.whole.along_m;
     depth_m_ += leg.whole.down_m;
     cosine_ = leg.whole.cosine;
     sine_ = leg.whole.sine;
-    measure(leg, leg.whole, timed_);
-    const double twist = cell().twist;
-    if (twist != 0 && leg.whole.length_m > 0)
-        leg.kick += 2 * twist * leg.whole.along_m * leg.whole.down_m /
-                    (leg.whole.length_m * leg.speed_mps * leg.speed_mps);
+}
+
+/// What is there.
+void RayTracer::cross(Leg& leg, End end) {
     if (end == End::layer) cross_layer(leg);
     if (end == End::strip) cross_strip(leg);
     if (end == End::surface) reflect(leg, sea_.surface, Touch::surface);
@@ -289,15 +297,39 @@ bool RayTracer::next(Leg& leg) {
     if (ended_) return false;
     sine_ = away_from_zero(sine_);
     begin(leg);
-    End end = to_layer(leg);
-    const bool down = leg.whole.sine > 0;
-    const double edge_m = sea_.layer_edge_m[layer_ + (down ? 1 : 0)];
-    if (down && sea_.bottom.level && edge_m >= sea_.bottom.depth_m) end = End::bottom;
-    if (!down && sea_.surface.level && edge_m <= sea_.surface.depth_m) end = End::surface;
-    end = to_strip(leg, end);
+    to_layer(leg);
+    End end = to_strip(leg, level_wall(leg));
     if (!sea_.surface.level) end = to_wall(leg, sea_.surface, End::surface, end);
     if (!sea_.bottom.level) end = to_wall(leg, sea_.bottom, End::bottom, end);
-    arrive(leg, end);
+    move(leg);
+    measure(leg, leg.whole, timed_);
+    const double twist = cell().twist;
+    if (twist != 0 && leg.whole.length_m > 0)
+        leg.kick += 2 * twist * leg.whole.along_m * leg.whole.down_m /
+                    (leg.whole.length_m * leg.speed_mps * leg.speed_mps);
+    cross(leg, end);
+    return true;
+}
+
+bool RayTracer::next(Leg& leg, const Leg& came_by) {
+    if (ended_) return false;
+    const Advance& there = came_by.whole;
+    if (there.along_m < 0 || range_m_ + there.along_m > stop_m_) return next(leg);
+    leg = came_by;
+    leg.range_m = range_m_;
+    leg.depth_m = depth_m_;
+    leg.cosine = there.cosine;
+    leg.sine = -there.sine;
+    leg.speed_mps += came_by.depth_gradient * there.down_m;
+    leg.whole.down_m = -there.down_m;
+    leg.whole.cosine = came_by.cosine;
+    leg.whole.sine = -came_by.sine;
+    leg.kick = 0;
+    leg.magnitude = 1;
+    leg.phase_rad = 0;
+    leg.touch = Touch::none;
+    move(leg);
+    cross(leg, level_wall(leg));
     return true;
 }
 

@@ -44,6 +44,9 @@ public:
 
     /// The next leg; false when the ray has ended before it.
     bool next(Leg& leg);
+    /// The same where nothing depends on range, and the ray, which has met a wall or turned, goes
+    /// back by a leg that it came by: in its mirror image.
+    bool next(Leg& leg, const Leg& came_by);
     /// Back at the depth of the source, in the direction of the launch.
     bool at_start() const { return depth_m_ == sea_.source_depth_m && sine_ * start_sine_ > 0; }
     /// The source lies on a wall, and the ray was launched into it.
@@ -56,13 +59,15 @@ private:
     const Cell& cell() const { return sea_.at(strip_, layer_); }
     void set_layer();
     void begin(Leg& leg) const;
-    End to_layer(Leg& leg) const;
+    void to_layer(Leg& leg) const;
+    End level_wall(const Leg& leg) const;
     End to_strip(Leg& leg, End end) const;
     End to_wall(Leg& leg, const Wall& wall, End hit, End end);
     void cross_layer(Leg& leg);
     void cross_strip(Leg& leg);
     void reflect(Leg& leg, const Wall& wall, Touch touch);
-    void arrive(Leg& leg, End end);
+    void move(const Leg& leg);
+    void cross(Leg& leg, End end);
 
     const RaySea& sea_;
     double stop_m_, start_sine_;
