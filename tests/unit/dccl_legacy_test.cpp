@@ -224,10 +224,7 @@ TEST(DcclLegacy, AHalfStepOfDifferenceBringsNoNegativeZero) {
     Legacy log(number("0", "1", 0, "<array_length>2</array_length><max_delta>1.5</max_delta>"));
     const LegacyMessage& m = log.message();
     ASSERT_EQ(m.body_bits(), 2 + 3U);
-    for (const char* frame : {"200280000000"
-                              "0a",
-                              "200280000000"
-                              "06"}) {
+    for (const char* frame : {"2002800000000a", "20028000000006"}) {
         const json x = log.decode(m, frame).at("x");
         EXPECT_EQ(x.dump(), "[1,0]") << frame;
         EXPECT_EQ(log.decode(m, log.encode(m, {{"x", x}})).at("x").dump(), x.dump());

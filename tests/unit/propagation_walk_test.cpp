@@ -65,6 +65,7 @@ TEST(Walk, BackByTheSameLegsIsWhereTracingLeads) {
             ASSERT_NEAR(x.phase_rad, y.phase_rad, 1e-6) << k << ' ' << n;
             ASSERT_EQ(x.surface_bounces, y.surface_bounces);
             ASSERT_EQ(x.bottom_bounces, y.bottom_bounces);
+            ASSERT_EQ(x.caustics, y.caustics) << k << ' ' << n;
         }
     }
     EXPECT_GT(legs, 10'000U);

@@ -233,7 +233,7 @@ void LegacyLoader::number(const Node& node, LegacyField& f) {
         f.precision = static_cast<int>(p);
     }
     if (node.child("max_delta")) f.max_delta = std::fabs(real(node, "max_delta"));
-    // Scaling rounds twice; a quarter of a step is then the most that both make.
+    // Scaling rounds twice: by less than half a step so far.
     const int most = f.precision == 0 ? 53 : 51;
     const double farthest = std::max(std::fabs(f.min), std::fabs(f.max)) + f.max_delta;
     if (!(times_ten(farthest, f.precision) <= std::ldexp(1.0, most))) {

@@ -45,19 +45,19 @@ public:
                   const std::string& message) override {
         const std::string text = one_line(message);
         if (line < 0) {
-            if (unplaced_.empty()) unplaced_ = printable(tree_.shown(file)) + ": " + text;
+            if (unplaced_.empty()) unplaced_ = tree_.shown(file) + ": " + text;
         } else if (placed_.empty()) {
-            placed_ = printable(tree_.shown(file)) + ":" + std::to_string(line + 1) + ":" +
+            placed_ = tree_.shown(file) + ":" + std::to_string(line + 1) + ":" +
                       std::to_string(column + 1) + ": " + text;
         }
     }
     void clear() { placed_.clear(), unplaced_.clear(); }
     /// The first fault with a place and, where it is an import that failed, why.
     std::string what() const {
-        if (placed_.empty()) return printable(unplaced_, longest_fault);
+        std::string said = placed_.empty() ? unplaced_ : placed_;
         const bool import = placed_.find("was not found or had errors") != std::string::npos;
-        return printable(import && !unplaced_.empty() ? placed_ + " (" + unplaced_ + ")" : placed_,
-                         longest_fault);
+        if (import && !unplaced_.empty()) said += " (" + unplaced_ + ")";
+        return printable(said, longest_fault);
     }
 
 private:
